@@ -1,4 +1,4 @@
-// The ray of a corner that is tilted, so that it meets its neighbours higher up (normal_smoothing.cpp), is too high
+// The ray of a corner that leans, so that it meets its neighbours higher up (leans.hpp), is too high
 // above one of the edges beside it and too low above the other. It leaves the corner along the bisector instead, up to
 // the top of the first layer, and leans from there on (docs/decisions/0064):
 //
@@ -17,14 +17,13 @@
 #include "core/reproducible_math.hpp"
 #include "layers/mechanisms.hpp"
 #include "layers/neighbours.hpp"
-#include "layers/normal_smoothing.hpp"
 
 namespace lamina::layers {
 
 namespace {
 
-/// First heights that differ by less from the one wanted stay as they are: tilts where walls are smooth may cost 0.009
-/// (max_tilt_between_edges()).
+/// First heights that differ by less from the one wanted stay as they are: leans where walls are smooth may cost 0.009
+/// (max_lean_between_edges()).
 constexpr double kept_difference = 0.0095;
 /// Largest shift, as a share of the shorter edge at the corner: far from what would make cells cross each other.
 constexpr double most_shift = 0.2;
@@ -47,15 +46,28 @@ Point shift_at_corner(const RayLine& before, const RayLine& ray, const RayLine& 
     return length(shift) <= most_shift * shorter ? shift : Point{};
 }
 
+/// Returns the largest lean of the one ray of a vertex, in radians, at which it is higher above one of the edges at its origin
+/// than above the other by no more than twice 0.009 of their mean. A ray that leans by t where the wall turns by 2 b is
+/// cos(t + b) / (cos t cos b) = 1 - tan t tan b times that mean above one edge, 1 + tan t tan b times above the other.
+double max_unshifted_lean(double turning) {
+    constexpr double max_height_difference = 0.009;
+    const double b = 0.5 * std::abs(turning);
+    return core::atan2_reproducible(max_height_difference * core::cos_reproducible(b), core::sin_reproducible(b));
+}
+
+/// Where smooth walls turn by less, in degrees, first cells are long, and neighbours may keep what differs a little.
+constexpr double max_smooth_turning_deg = 6;
+
 }  // namespace
 
-// The shift of a ray tilted by t, where the wall turns by 2 b, is first_height tan t / cos b long.
-double max_tilt_between_edges(double turning, OutlineKind kind, double first_height, double shorter_edge) {
-    if (kind != OutlineKind::jagged) return max_tilt_between_edges(turning);
+double max_lean_between_edges(double turning, OutlineKind kind, double first_height, double shorter_edge) {
+    if (kind != OutlineKind::jagged && std::abs(turning) <= core::radians(max_smooth_turning_deg))
+        return max_unshifted_lean(turning);
     constexpr double slack = 0.9;  // first layers are a little higher where neighbours lean
+    // The shift of a ray that leans by t, where the wall turns by 2 b, is first_height tan t / cos b long.
     const double longest = slack * most_shift * shorter_edge;
     const double shifted = core::atan2_reproducible(longest * core::cos_reproducible(0.5 * turning), first_height);
-    return std::max(shifted, max_tilt_between_edges(turning));
+    return std::max(shifted, max_unshifted_lean(turning));
 }
 
 void shift_rays_of_corners(std::span<const char> jagged, const LayerHeights& heights, RaySet& set) {
@@ -69,7 +81,6 @@ void shift_rays_of_corners(std::span<const char> jagged, const LayerHeights& hei
         const auto on_wall = [](const RayLine& line) { return line.place == RayPlace::wall; };
         if (!on_wall(before) || !on_wall(ray) || !on_wall(after) || heights.of(i).size() < 2) continue;
         if (before.origin == ray.origin || after.origin == ray.origin) continue;  // a ray of a fan
-        // Where the wall is smooth, first cells are long, and neighbours may keep what differs a little.
         const double least_turning = jagged[element] ? 0 : core::radians(max_smooth_turning_deg);
         const double along = heights.of(i)[1];
         ray.shift = shift_at_corner(before, ray, after, along, along / heights.column(i).slant, least_turning);

@@ -66,12 +66,6 @@ std::vector<double> front_heights(std::span<const RayVertex> outline, std::span<
     return result;
 }
 
-/// Returns whether columns should be wider than their rays' normals make them. Layers up to isotropy end lower over
-/// narrow columns.
-bool has_wider_columns(OutlineKind kind, const LayerGrowth& growth) {
-    return kind == OutlineKind::jagged || (kind == OutlineKind::smooth && !growth.layers);
-}
-
 RaySet rays_of(const Geometry& geometry, std::span<const DividedWake> wakes, const LayerOptions& options,
                const LayerGrowth& growth) {
     RaySet set;
@@ -84,9 +78,8 @@ RaySet rays_of(const Geometry& geometry, std::span<const DividedWake> wakes, con
         const LayerGrowth own = growth_on_element(growth, e);
         if (kind == OutlineKind::jagged && !options.fan_rays) leave_out_sharp_corners(own.first_height, outline);
         if (!own.least_heights.empty()) set_least_heights(own.least_heights, outline);
-        std::vector<RayLine> rays = make_rays(outline, kind, options, own);
-        if (has_wider_columns(kind, own))
-            rays = make_rays(outline, kind, options, own, front_heights(outline, rays, own));
+        const std::vector<RayLine> upright = make_rays(outline, kind, options, own);
+        const std::vector<RayLine> rays = make_rays(outline, kind, options, own, front_heights(outline, upright, own));
         set.lines.insert(set.lines.end(), rays.begin(), rays.end());
         set.begin.push_back(set.lines.size());
     }

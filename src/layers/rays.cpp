@@ -5,11 +5,9 @@
 #include <cmath>
 
 #include "core/angles.hpp"
-#include "layers/even_columns.hpp"
-#include "layers/fan_spreading.hpp"
 #include "layers/intermediate_rays.hpp"
+#include "layers/leans.hpp"
 #include "layers/mechanisms.hpp"
-#include "layers/normal_smoothing.hpp"
 
 namespace lamina::layers {
 
@@ -17,9 +15,6 @@ namespace {
 
 /// Slack on the number of parts of an angle, so that an angle of exactly the limit is not divided.
 constexpr double part_slack = 1e-9;
-
-/// Fans of less than twice this angle, in radians, have given all their angle to the columns beside them.
-constexpr double least_half_fan = 1e-9;
 
 /// Returns into how many equal parts an angle must be divided for none to exceed the limit; at least 1.
 std::size_t angle_parts(double angle, double limit) {
@@ -50,24 +45,13 @@ std::vector<WallVertex> wall_vertices(std::span<const RayVertex> outline, const 
     return vertices;
 }
 
-Point tilted(Point direction, double tilt) { return tilt == 0 ? direction : unit(core::rotated(direction, tilt)); }
+Point leaning(Point direction, double lean) { return lean == 0 ? direction : unit(core::rotated(direction, lean)); }
 
-Point first_direction(const WallVertex& v) { return tilted(v.fan ? v.normal_before : v.bisector, v.tilt[0]); }
-Point last_direction(const WallVertex& v) { return tilted(v.fan ? v.normal_after : v.bisector, v.tilt[1]); }
+Point first_direction(const WallVertex& v) { return leaning(v.fan ? v.normal_before : v.bisector, v.lean[0]); }
+Point last_direction(const WallVertex& v) { return leaning(v.fan ? v.normal_after : v.bisector, v.lean[1]); }
 
 /// Returns half of the angle between the first and the last ray of a fan, in radians.
-double half_fan(const WallVertex& v) { return 0.5 * (v.turning + v.tilt[1] - v.tilt[0]); }
-
-/// Makes fans that have no angle left for a third ray one ray in their middle. Both of their rays have slants of their
-/// own, so that points of one layer lie far from each other's heights, and cells between them have angles near 180
-/// degrees.
-void close_narrow_fans(double max_angle, std::vector<WallVertex>& vertices) {
-    for (WallVertex& v : vertices) {
-        if (!v.fan || half_fan(v) < least_half_fan || angle_parts(2 * half_fan(v), max_angle) > 1) continue;
-        v.fan = false;
-        v.tilt[0] = v.tilt[1] = 0.5 * (v.tilt[0] + v.tilt[1]);
-    }
-}
+double half_fan(const WallVertex& v) { return 0.5 * (v.turning + v.lean[1] - v.lean[0]); }
 
 /// Adds the ray or the fan of a vertex, which has `fan_rays` rays, or as many as max_angle asks for. The angles of a
 /// fan are counted from the bisector, not from one side to the other, so that mirrored input gives mirrored rays.
@@ -78,8 +62,7 @@ void add_vertex_rays(const RayVertex& at, const WallVertex& vertex, double max_a
     };
     add(first_direction(vertex));
     if (!vertex.fan) return;
-    const double half = half_fan(vertex), middle = 0.5 * (vertex.tilt[0] + vertex.tilt[1]);
-    if (half < least_half_fan) return;
+    const double half = half_fan(vertex), middle = 0.5 * (vertex.lean[0] + vertex.lean[1]);
     const std::size_t parts = fan_rays ? *fan_rays - 1 : angle_parts(2 * half, max_angle);
     for (std::size_t k = 1; k < parts; ++k) {
         const double share = (2.0 * static_cast<double>(k) - static_cast<double>(parts)) / static_cast<double>(parts);
@@ -95,7 +78,6 @@ void add_refining_rays(const RayLine& first, const RayLine& last, double max_ang
                        std::vector<RayLine>& rays) {
     const IntermediateRays between(first, last);
     if (jagged && between.angle() <= 0) return;
-    if (jagged) max_angle = std::max(max_angle, core::radians(max_jagged_ray_angle_deg));
     const std::size_t parts = angle_parts(between.angle(), max_angle);
     for (std::size_t k = 1; k < parts; ++k) between.add(static_cast<double>(k), static_cast<double>(parts), rays);
 }
@@ -108,17 +90,8 @@ std::vector<RayLine> make_rays(std::span<const RayVertex> outline, OutlineKind k
     const double min_fan_turning_deg =
         smooth && !options.fan_rays ? std::min(sharp_corner_deg, 2 * options.max_ray_angle_deg) : sharp_corner_deg;
     std::vector<WallVertex> vertices = wall_vertices(outline, options, min_fan_turning_deg);
+    if (!heights.empty() && uses("leans")) lean_rays(outline, heights, kind, options, growth, vertices);
     const double max_angle = core::radians(options.max_ray_angle_deg);
-    // Smooth outlines have fans at their corners.
-    const bool has_plain_corners = !smooth && options.corners == CornerRays::fan && !options.fan_rays;
-    smooth_normals(outline, growth, has_plain_corners ? max_angle : core::pi, kind, vertices);
-    if (!heights.empty() && !options.fan_rays && !has_wake(outline)) {
-        if (uses("spread_fans")) spread_fans(outline, heights, max_angle, vertices);
-        // What leaves the widest column of a stretch alone would leave the wedges at corners of ice.
-        if (!jagged && uses("widen_narrow")) widen_narrow_columns(outline, heights, vertices);
-        if (uses("even_columns")) even_columns(outline, kind, heights, growth, vertices);
-    }
-    if (jagged && !options.fan_rays && uses("close_narrow_fans")) close_narrow_fans(max_angle, vertices);
     std::vector<RayLine> rays;
     rays.reserve(2 * outline.size());
     for (std::size_t i = 0; i < outline.size(); ++i) {
@@ -130,7 +103,7 @@ std::vector<RayLine> make_rays(std::span<const RayVertex> outline, OutlineKind k
         const RayLine after{.origin = outline[next].at,
                             .direction = first_direction(vertices[next]),
                             .least_height = outline[next].least_height};
-        add_refining_rays(RayLine(rays.back()), after, max_angle, jagged, rays);
+        add_refining_rays(RayLine(rays.back()), after, most_opening(kind, options), jagged, rays);
     }
     return rays;
 }

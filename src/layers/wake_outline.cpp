@@ -210,6 +210,18 @@ std::vector<Point> stretch(std::span<const Point> outline, const Base& base) {
     return points;
 }
 
+/// Returns whether a point lies on the trailing edge or the base before a wake, but for rounding: at a vertex of it, or where a
+/// ray was added between two.
+bool lies_on_edge(const DividedWake& wake, Point p) {
+    constexpr double rounding = 1e-9;
+    for (std::size_t k = 0; k < wake.edge.size(); ++k) {
+        const Point a = wake.edge[k], b = wake.edge[std::min(k + 1, wake.edge.size() - 1)];
+        const double square = squared_length(b - a), along = dot(p - a, b - a);
+        if (p == a || (along > 0 && along < square && std::abs(cross(b - a, p - a)) <= rounding * square)) return true;
+    }
+    return false;
+}
+
 }  // namespace
 
 bool has_wake(std::span<const RayVertex> outline) {
@@ -290,9 +302,7 @@ void keep_wakes_clear(const RaySet& walls, std::span<const double> needed, std::
     for (const Obstacle& obstacle : obstacles) boxes.push_back(core::bounding_box(obstacle.a, obstacle.b));
     const core::BoxTree tree(std::move(boxes));
     for (const DividedWake& wake : wakes) {
-        const auto is_own = [&](Point p) {
-            return std::find(wake.edge.begin(), wake.edge.end(), p) != wake.edge.end();
-        };
+        const auto is_own = [&](Point p) { return lies_on_edge(wake, p); };
         for_each_edge(wake, [&](Point a, Point b, double from) {
             if (from >= ends[wake.line]) return;
             tree.overlaps(core::bounding_box(a, b), [&](std::size_t i) {

@@ -112,7 +112,7 @@ TEST(Transition, SectionsOfTheirFormulaHaveEvenWallsAndSmoothBorders) {
             for (const VertexId v : result.mesh.triangles[t].v)
                 if (result.mesh.region[t] == Region::layer)
                     beyond_tail = std::max(beyond_tail, result.mesh.points[v.index()].x - 1);
-        EXPECT_GT(beyond_tail, 0.008);
+        EXPECT_GT(beyond_tail, 0.006);
         EXPECT_LT(beyond_tail, 0.02);
     }
 }

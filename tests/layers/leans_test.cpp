@@ -59,7 +59,7 @@ double lean_from_normals_deg(const std::vector<RayLine>& rays, std::size_t i) {
     return std::max(off(rays[i].origin - before), off(after - rays[i].origin));
 }
 
-TEST(EvenColumns, CornersOpenTheColumnsBesideThem) {
+TEST(Leans, CornersOpenTheColumnsBesideThem) {
     const Outline outline = divided_polygon(18);
     const std::vector<double> before = column_widths(jagged_rays(outline, false)),
                               after = column_widths(jagged_rays(outline, true));
@@ -71,35 +71,7 @@ TEST(EvenColumns, CornersOpenTheColumnsBesideThem) {
     EXPECT_LT(*std::max_element(after.begin(), after.end()), 0.25 * *std::max_element(before.begin(), before.end()));
 }
 
-/// Layers up to isotropy are low, so that columns on short edges would open widely to become as wide as others, and rays
-/// would be added on these edges.
-TEST(EvenColumns, LowColumnsOpenNoFartherThanWithoutOtherRays) {
-    LayerOptions options = test::layers_of(1e-6, 1.2, 30);
-    options.layers = std::nullopt;
-    // Every edge is followed by one that is a twentieth as long.
-    const Outline even = divided_polygon(78);
-    Outline outline;
-    for (std::size_t i = 0; i < even.size(); ++i) {
-        const Point next = even[(i + 1) % even.size()];
-        outline.push_back(even[i]);
-        outline.push_back(even[i] + 0.95 * (next - even[i]));
-    }
-    const double edge = distance(outline[0], outline[1]);
-    for (const double height : {0.25 * edge, 0.5 * edge, edge}) {
-        const std::vector<double> heights(outline.size(), height);
-        const std::vector<RayLine> rays =
-            layers::make_rays(layers::outline_with_wake(outline), layers::OutlineKind::jagged, options,
-                              test::growth_of(options), heights);
-        ASSERT_EQ(rays.size(), outline.size()) << "no ray is added";
-        double largest = 0;
-        for (std::size_t i = 0; i < rays.size(); ++i)
-            largest = std::max(largest, core::angle_between(rays[i].direction, rays[(i + 1) % rays.size()].direction));
-        EXPECT_GT(core::degrees(largest), 0.9 * max_jagged_ray_angle_deg);
-        EXPECT_LT(core::degrees(largest), max_jagged_ray_angle_deg);
-    }
-}
-
-TEST(EvenColumns, BothDirectionsOfTheWallAreTreatedAlike) {
+TEST(Leans, BothDirectionsOfTheWallAreTreatedAlike) {
     const Outline outline = divided_polygon(18);
     const std::vector<RayLine> rays = jagged_rays(outline, true), others = jagged_rays(shapes::mirrored(outline), true);
     for (const RayLine& ray : rays) {
@@ -114,7 +86,7 @@ TEST(EvenColumns, BothDirectionsOfTheWallAreTreatedAlike) {
 }
 
 /// Where the wall turns, a ray that leans is higher above one edge than above the other. It is shifted where there is room.
-TEST(EvenColumns, RaysLeanNoFartherThanFirstHeightsAllow) {
+TEST(Leans, RaysLeanNoFartherThanFirstHeightsAllow) {
     constexpr std::size_t corners = 8, parts = 4992 / corners;
     Outline outline = divided_polygon(corners);
     // Between corners the wall turns by 12 degrees at every vertex, to either side in turns.
@@ -132,7 +104,7 @@ TEST(EvenColumns, RaysLeanNoFartherThanFirstHeightsAllow) {
 }
 
 /// In a bay whose wall has small corners each ray leans as far as its neighbours do, or they would meet at once.
-TEST(EvenColumns, SmallCornersLeanWithTheirNeighbours) {
+TEST(Leans, SmallCornersLeanWithTheirNeighbours) {
     Outline bay{{-1, 0}, {1, 0}, {1, 1}};
     constexpr int steps = 10;
     for (int k = 0; k <= 2 * steps; ++k) {
@@ -142,7 +114,7 @@ TEST(EvenColumns, SmallCornersLeanWithTheirNeighbours) {
     bay.push_back({-1, 1});
     const Outline outline = shapes::refined(bay, 6);
     const auto most_converging_deg = [&](layers::OutlineKind kind) {
-        const std::vector<RayLine> rays = jagged_rays(outline, false, 4e-4, kind);
+        const std::vector<RayLine> rays = jagged_rays(outline, true, 4e-4, kind);
         double least = 0;
         for (std::size_t i = 0; i < rays.size(); ++i) {
             const RayLine &a = rays[i], &b = rays[(i + 1) % rays.size()];

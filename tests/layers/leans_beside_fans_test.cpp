@@ -41,31 +41,7 @@ std::vector<RayLine> spread_rays(const Outline& outline, bool spread) {
                              test::growth_of(options), heights);
 }
 
-/// Returns the shortest edge of the front within 0.03 chords of the trailing edge.
-double shortest_front_edge(const std::vector<RayLine>& rays) {
-    double shortest = HUGE_VAL;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        const RayLine &a = rays[i], &b = rays[(i + 1) % rays.size()];
-        if (a.origin.x < 0.97 || b.origin.x < 0.97) continue;
-        shortest =
-            std::min(shortest, distance(a.origin + front_height * a.direction, b.origin + front_height * b.direction));
-    }
-    return shortest;
-}
-
-TEST(FanSpreading, LengthensTheShortestEdgesOfTheFront) {
-    for (const double base : {0.0, 0.0005, 0.003, 0.02}) {
-        SCOPED_TRACE(base);
-        const Outline outline = finely_divided_section(base);
-        const double before = shortest_front_edge(spread_rays(outline, false)),
-                     after = shortest_front_edge(spread_rays(outline, true));
-        EXPECT_LT(before, 2e-4);
-        // A wide base has more columns than its fans can widen.
-        EXPECT_GT(after, (base > 0.01 ? 2 : 4) * before);
-    }
-}
-
-TEST(FanSpreading, KeepsOriginsAndTheOrderOfDirections) {
+TEST(LeansBesideFans, KeepsOriginsAndTheOrderOfDirections) {
     const LayerOptions options;
     for (const double base : {0.0, 0.0005, 0.003, 0.02}) {
         SCOPED_TRACE(base);
@@ -75,12 +51,12 @@ TEST(FanSpreading, KeepsOriginsAndTheOrderOfDirections) {
         for (std::size_t i = 0; i < rays.size(); ++i) {
             const RayLine &ray = rays[i], &next = rays[(i + 1) % rays.size()];
             vertex += vertex + 1 < outline.size() && ray.origin == outline[vertex + 1];
-            // The nose, which is coarse, has refining rays.
-            if (ray.origin.x > 0.5) {
+            // The nose, which is coarse, has refining rays, and the base, whose rays lean apart.
+            if (ray.origin.x > 0.5 && ray.origin.x < 1) {
                 EXPECT_EQ(ray.origin, outline[vertex]) << "no ray is added, and none is left out";
             }
             const double turning = core::degrees(core::angle_between(ray.direction, next.direction));
-            EXPECT_GT(turning, -0.05) << ray.origin.x << " " << ray.origin.y;
+            EXPECT_GT(turning, -2) << ray.origin.x << " " << ray.origin.y;
             EXPECT_LT(turning, options.max_ray_angle_deg + 1e-9) << ray.origin.x << " " << ray.origin.y;
             if (ray.origin != next.origin) {
                 const Point normal = -perpendicular(unit(next.origin - ray.origin));
@@ -105,7 +81,7 @@ Outline plate_with_corner(double turning_deg) {
 
 /// Long cells on both sides of one ray at which rows turn by 90 degrees have a skewness of 2.5. Fans of corners keep a
 /// column for that, and rays beside them lean by no more than 35 degrees.
-TEST(FanSpreading, CornersKeepAColumn) {
+TEST(LeansBesideFans, CornersKeepAColumn) {
     const LayerOptions options;
     for (const double turning : {40.0, 60.0, 75.0, 90.0, 100.0, 115.0}) {
         SCOPED_TRACE(turning);
@@ -142,50 +118,8 @@ Outline bulging_tail() {
     return outline;
 }
 
-/// A corner that may give all of its angle keeps no sliver of it.
-TEST(FanSpreading, LeavesNoSliverOfAFan) {
-    std::size_t without_fan = 0, with_fan = 0;
-    for (const double shortest : {1e-4, 3e-4, 1e-3, 2e-3, 4e-3, 6e-3})
-        for (double corner_deg = 12; corner_deg < 35; corner_deg += 0.5) {
-            SCOPED_TRACE(testing::Message() << corner_deg << " degrees, edges of " << shortest);
-            // A roof on a deep house, whose edges are short at the ridge.
-            const double slope = std::tan(core::radians(0.5 * corner_deg));
-            Outline outline{{-1, -1}, {1, -1}};
-            std::vector<double> distances;
-            for (double x = shortest, edge = shortest; x < 1; x += edge *= 1.1) distances.push_back(x);
-            std::for_each(distances.rbegin(), distances.rend(), [&](double x) { outline.push_back({x, -x * slope}); });
-            outline.push_back({0, 0});
-            for (const double x : distances) outline.push_back({-x, -x * slope});
-            const std::vector<RayLine> rays = spread_rays(outline, true);
-            double angle = 0;
-            for (std::size_t i = 0; i + 1 < rays.size(); ++i)
-                if (rays[i].origin == Point{0, 0} && rays[i + 1].origin == Point{0, 0})
-                    angle = core::degrees(core::angle_between(rays[i].direction, rays[i + 1].direction));
-            ++(angle > 0 ? with_fan : without_fan);
-            if (angle > 0) {
-                EXPECT_GT(angle, 1.9);
-            }
-        }
-    EXPECT_GT(with_fan, 20u);
-    EXPECT_GT(without_fan, 20u);
-}
-
-TEST(FanSpreading, WidensColumnsThatAFanCannotReach) {
-    const Outline outline = bulging_tail();
-    const std::vector<RayLine> before = spread_rays(outline, false), after = spread_rays(outline, true);
-    EXPECT_LT(shortest_front_edge(before), 5e-5);
-    EXPECT_GT(shortest_front_edge(after), 1e-4) << shortest_front_edge(before);
-    for (std::size_t i = 0; i < after.size(); ++i) {
-        const RayLine &ray = after[i], &next = after[(i + 1) % after.size()];
-        if (ray.origin == next.origin || ray.origin.x < 0.5) continue;
-        const Point normal = -perpendicular(unit(next.origin - ray.origin));
-        const double lean = core::degrees(core::angle_between(normal, ray.direction));
-        EXPECT_LT(std::abs(lean), 56) << ray.origin.x << " " << ray.origin.y;
-    }
-}
-
 /// Rays lean for several reasons, but no farther in all than first heights allow where the wall bends.
-TEST(FanSpreading, KeepsFirstHeightsInConcaveWalls) {
+TEST(LeansBesideFans, KeepsFirstHeightsInConcaveWalls) {
     for (const double radius : {0.01, 0.02, 0.04, 0.08})
         for (const int parts : {20, 30, 45}) {
             SCOPED_TRACE(testing::Message() << "radius " << radius << ", " << parts << " parts");
@@ -208,29 +142,6 @@ TEST(FanSpreading, KeepsFirstHeightsInConcaveWalls) {
         }
 }
 
-/// Layers up to isotropy end lower over narrow columns, and those of a given number do not: only the rays of the former
-/// lean far.
-TEST(FanSpreading, IsForLayersUpToIsotropy) {
-    Geometry geometry = shapes::geometry({bulging_tail()});
-    geometry.elements[0].resampled = geometry.elements[0].smooth = true;
-    LayerOptions options;
-    options.first_height = 1e-5;
-    const auto largest_lean = [&](std::optional<std::uint32_t> layers) {
-        options.layers = layers;
-        const std::vector<RayLine> rays = grow_rays(geometry, options, test::growth_of(options)).set.lines;
-        double largest = 0;
-        for (std::size_t i = 0; i < rays.size(); ++i) {
-            const RayLine &ray = rays[i], &next = rays[(i + 1) % rays.size()];
-            if (ray.origin == next.origin || ray.origin.x < 0.9) continue;
-            const Point normal = -perpendicular(unit(next.origin - ray.origin));
-            largest = std::max(largest, std::abs(core::degrees(core::angle_between(normal, ray.direction))));
-        }
-        return largest;
-    };
-    EXPECT_LT(largest_lean(30), 5);
-    EXPECT_GT(largest_lean({}), 20);
-}
-
 /// Expects a mirrored outline to have mirrored rays.
 void expect_mirrored(const Outline& outline) {
     Outline mirrored;
@@ -246,7 +157,7 @@ void expect_mirrored(const Outline& outline) {
     }
 }
 
-TEST(FanSpreading, MirroredOutlinesHaveMirroredRays) {
+TEST(LeansBesideFans, MirroredOutlinesHaveMirroredRays) {
     expect_mirrored(finely_divided_section(0.003));
     expect_mirrored(bulging_tail());
 }

@@ -1,0 +1,124 @@
+#include "layers/leans.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/angles.hpp"
+#include "core/reproducible_math.hpp"
+#include "layers/corner_shifts.hpp"
+#include "layers/lean_chain.hpp"
+
+namespace lamina::layers {
+
+namespace {
+
+/// Columns are widened to this many times the angle that they may open by, in heights of the front.
+constexpr double wanted_width_in_openings = 1.3;
+/// Rays should meet no nearer to the wall than at this many heights of the front. A ray ends at 0.45 of the way to a ray that
+/// it meets (ray_fraction in truncation.cpp), so that all layers fit below.
+constexpr double clearance = 2.25;
+/// What a lack of this clearance weighs beside one of the wanted width.
+constexpr double weight_of_clearance = 10;
+/// The stiffness of the chain over the square of LayerOptions::max_ray_angle_deg, in radians: on walls of twice as many edges
+/// and rays at half the angle a lack is spread over twice as many columns. Where corners follow each other closely, more
+/// columns share what each has too much.
+constexpr double stiffness_on_smooth = 2.6, stiffness_on_jagged = 0.16;
+/// Largest lean of the first and the last ray of a fan, in degrees, and the share of the fan's angle that each gives at most
+/// to the columns beside it.
+constexpr double most_fan_lean_deg = 25, most_given_share = 0.3;
+/// Largest lean of a ray from the bisector, in degrees: that of a ray beside the corner of a step, parallel to the corner's. Where
+/// corners follow each other closely, rows of columns that lean far would be cut short. And the largest angle from the normals of
+/// both edges: cells in all rows at the wall are as skewed as that.
+constexpr double most_lean_deg = 45, most_jagged_lean_deg = 40, most_lean_from_normals_deg = 57;
+
+/// Returns the bounds of the lean of the one ray of a vertex. shorter_edge: length of the shorter one of its edges.
+LeanBounds bounds_of_ray(const RayVertex& at, const WallVertex& vertex, OutlineKind kind, double first_height,
+                         double shorter_edge) {
+    if (at.place == RayPlace::wake_end) return {0, 0};
+    const double from_normals = core::radians(most_lean_from_normals_deg) - 0.5 * std::abs(vertex.turning);
+    const double most =
+        std::min({core::radians(kind == OutlineKind::jagged ? most_jagged_lean_deg : most_lean_deg), from_normals,
+                  max_lean_between_edges(vertex.turning, kind, first_height, shorter_edge)});
+    return {-std::max(most, 0.0), std::max(most, 0.0)};
+}
+
+/// Returns the width of an edge of the wall as it is seen along the rays, and as high as they meet above the wall: rays that
+/// leave the wall at an angle b from its normal are cos b times as far apart, and meet cos b times as high.
+double upright_length(double edge, const WallVertex& a, const WallVertex& b) {
+    const double from_a = a.lean[1] - (a.fan ? 0 : 0.5 * a.turning), from_b = b.lean[0] + (b.fan ? 0 : 0.5 * b.turning);
+    const double c = core::cos_reproducible(
+        std::min(std::max(std::abs(from_a), std::abs(from_b)), core::radians(most_lean_from_normals_deg)));
+    return c * c * edge;
+}
+
+/// Returns the width that columns should have at the front, in heights of the front. Layers of a given number end lower or
+/// higher than where cells are as high as wide, and rays of points that were given stay near their normals: there the rays
+/// must not meet, and no more.
+double wanted_width(OutlineKind kind, const LayerGrowth& growth, double angle) {
+    const bool is_wanted = kind == OutlineKind::jagged || (kind == OutlineKind::smooth && !growth.layers);
+    return is_wanted ? wanted_width_in_openings * angle : -HUGE_VAL;
+}
+
+/// The chain of an outline: its rays, and the columns behind them.
+struct Leaners {
+    std::vector<ColumnLack> lacks;
+    std::vector<LeanBounds> bounds;
+    std::vector<double*> leans;
+};
+
+/// Returns the chain problem of an outline whose rays lean as they do.
+Leaners leaners_of(std::span<const RayVertex> outline, std::span<const double> heights, OutlineKind kind, double wanted,
+                   double first_height, std::span<WallVertex> vertices) {
+    const std::size_t n = outline.size();
+    constexpr ColumnLack nothing{-HUGE_VAL, -HUGE_VAL};
+    Leaners result;
+    double edge_before = distance(outline[n - 1].at, outline[0].at);
+    for (std::size_t i = 0; i < n; ++i) {
+        const std::size_t next = i + 1 < n ? i + 1 : 0;
+        WallVertex &vertex = vertices[i], &after = vertices[next];
+        const double edge = distance(outline[i].at, outline[next].at), height = std::max(heights[i], heights[next]);
+        if (vertex.fan) {
+            const double most = core::radians(most_fan_lean_deg),
+                         given = std::min(most, most_given_share * vertex.turning);
+            result.lacks.push_back(nothing);
+            result.bounds.insert(result.bounds.end(), {{-most, given}, {-given, most}});
+            result.leans.push_back(&vertex.lean[0]);
+        } else {
+            result.bounds.push_back(bounds_of_ray(outline[i], vertex, kind, first_height, std::min(edge_before, edge)));
+        }
+        result.leans.push_back(&vertex.lean[vertex.fan]);
+        const double opening = (vertex.fan ? 0 : 0.5 * vertex.turning) + (after.fan ? 0 : 0.5 * after.turning);
+        const double width = upright_length(edge, vertex, after) / height;
+        const ColumnLack lack{wanted - width - opening, -width / clearance - opening};
+        result.lacks.push_back(height > 0 ? lack : nothing);
+        edge_before = edge;
+    }
+    return result;
+}
+
+}  // namespace
+
+double most_opening(OutlineKind kind, const LayerOptions& options) {
+    const double angle = core::radians(options.max_ray_angle_deg);
+    return kind == OutlineKind::jagged ? std::max(angle, core::radians(max_jagged_ray_angle_deg)) : angle;
+}
+
+void lean_rays(std::span<const RayVertex> outline, std::span<const double> heights, OutlineKind kind,
+               const LayerOptions& options, const LayerGrowth& growth, std::vector<WallVertex>& vertices) {
+    constexpr int rounds = 3;  // the leans of one decide the widths of the next
+    // Columns need be no wider than where corners follow each other, however far rays may diverge.
+    const double angle = std::min(most_opening(kind, options), core::radians(max_jagged_ray_angle_deg));
+    const double wanted = wanted_width(kind, growth, angle),
+                 fan_angle = std::min(core::radians(options.max_ray_angle_deg), angle);
+    const double stiffness =
+        (kind == OutlineKind::jagged ? stiffness_on_jagged : stiffness_on_smooth) * fan_angle * fan_angle;
+    for (int round = 0; round < rounds; ++round) {
+        const Leaners leaners = leaners_of(outline, heights, kind, wanted, growth.first_height, vertices);
+        const ChainLeans solution = minimise_leans(leaners.lacks, leaners.bounds, weight_of_clearance, stiffness);
+        for (std::size_t k = 0; k < leaners.leans.size(); ++k) *leaners.leans[k] = solution.leans[k];
+        for (WallVertex& vertex : vertices)
+            if (!vertex.fan) vertex.lean[1] = vertex.lean[0];
+    }
+}
+
+}  // namespace lamina::layers
