@@ -126,10 +126,10 @@ std::vector<double> solve_cyclic(const Derivatives& d) {
 ChainLeans minimise_leans(std::span<const ColumnLack> lacks, std::span<const LeanBounds> bounds, double weight,
                           double stiffness) {
     assert(lacks.size() >= 3 && lacks.size() == bounds.size() && stiffness > 0);
-    constexpr std::size_t max_steps = 200;  // each lowers the function; outlines of thousands of corners take 20
-    constexpr double sufficient = 1e-4;     // share of the decrease that the gradient promises (Armijo)
-    constexpr double shortest = 1e-9;       // of a step
-    constexpr double rounding = 1e-14;      // of leans, and of the function
+    constexpr std::size_t max_steps = 200;    // each lowers the function; outlines of thousands of corners take 20
+    constexpr double sufficient = 1e-4;       // share of the decrease that the gradient promises (Armijo)
+    constexpr double shortest = 1e-9;         // of a step
+    constexpr double least_residual = 1e-14;  // of leans, and of the function
     const Chain chain(lacks, bounds, weight, stiffness);
     const std::size_t n = chain.size();
     ChainLeans result{std::vector<double>(n), 0};
@@ -139,7 +139,7 @@ ChainLeans minimise_leans(std::span<const ColumnLack> lacks, std::span<const Lea
     double value = chain.value(result.leans);
     chain.set_derivatives(result.leans, here);
     for (; result.steps < max_steps; ++result.steps) {
-        if (chain.residual(result.leans, here) < rounding) break;
+        if (chain.residual(result.leans, here) < least_residual) break;
         const std::vector<double> step = solve_cyclic(here);
         double share = 1, lower = value;
         for (; share > shortest; share *= 0.5) {
@@ -149,7 +149,7 @@ ChainLeans minimise_leans(std::span<const ColumnLack> lacks, std::span<const Lea
                 promised += here.gradient[i] * (result.leans[i] - trial[i]);
             }
             lower = chain.value(trial);
-            if (lower <= value - sufficient * promised + rounding * value) break;
+            if (lower <= value - sufficient * promised + least_residual * value) break;
         }
         if (share <= shortest) break;
         result.leans.swap(trial);

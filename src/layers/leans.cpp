@@ -14,6 +14,9 @@ namespace {
 
 /// Columns are widened to this many times the angle that they may open by, in heights of the front.
 constexpr double wanted_width_in_openings = 1.3;
+/// Where layers end at isotropy and corners follow each other closely, fronts are as low as columns are narrow there, and high
+/// where columns open: widths are measured at this many heights of the front, so that columns share the angles of corners.
+constexpr double fronts_on_jagged = 8;
 /// Rays should meet no nearer to the wall than at this many heights of the front. A ray ends at 0.45 of the way to a ray that
 /// it meets (ray_fraction in truncation.cpp), so that all layers fit below.
 constexpr double clearance = 2.25;
@@ -57,6 +60,15 @@ double upright_length(double edge, const WallVertex& a, const WallVertex& b) {
 double wanted_width(OutlineKind kind, const LayerGrowth& growth, double angle) {
     const bool is_wanted = kind == OutlineKind::jagged || (kind == OutlineKind::smooth && !growth.layers);
     return is_wanted ? wanted_width_in_openings * angle : -HUGE_VAL;
+}
+
+/// Returns the heights at which widths are measured.
+std::vector<double> measured_heights(std::span<const double> heights, OutlineKind kind, const LayerGrowth& growth) {
+    const bool isotropic = !growth.layers && growth.least_heights.empty();
+    const double factor = kind == OutlineKind::jagged && isotropic ? fronts_on_jagged : 1;
+    std::vector<double> measured(heights.begin(), heights.end());
+    for (double& height : measured) height *= factor;
+    return measured;
 }
 
 /// The chain of an outline: its rays, and the columns behind them.
@@ -112,8 +124,9 @@ void lean_rays(std::span<const RayVertex> outline, std::span<const double> heigh
                  fan_angle = std::min(core::radians(options.max_ray_angle_deg), angle);
     const double stiffness =
         (kind == OutlineKind::jagged ? stiffness_on_jagged : stiffness_on_smooth) * fan_angle * fan_angle;
+    const std::vector<double> measured = measured_heights(heights, kind, growth);
     for (int round = 0; round < rounds; ++round) {
-        const Leaners leaners = leaners_of(outline, heights, kind, wanted, growth.first_height, vertices);
+        const Leaners leaners = leaners_of(outline, measured, kind, wanted, growth.first_height, vertices);
         const ChainLeans solution = minimise_leans(leaners.lacks, leaners.bounds, weight_of_clearance, stiffness);
         for (std::size_t k = 0; k < leaners.leans.size(); ++k) *leaners.leans[k] = solution.leans[k];
         for (WallVertex& vertex : vertices)

@@ -213,11 +213,11 @@ std::vector<Point> stretch(std::span<const Point> outline, const Base& base) {
 /// Returns whether a point lies on the trailing edge or the base before a wake, but for rounding: at a vertex of it, or where a
 /// ray was added between two.
 bool lies_on_edge(const DividedWake& wake, Point p) {
-    constexpr double rounding = 1e-9;
+    constexpr double tolerance = 1e-9;
     for (std::size_t k = 0; k < wake.edge.size(); ++k) {
         const Point a = wake.edge[k], b = wake.edge[std::min(k + 1, wake.edge.size() - 1)];
         const double square = squared_length(b - a), along = dot(p - a, b - a);
-        if (p == a || (along > 0 && along < square && std::abs(cross(b - a, p - a)) <= rounding * square)) return true;
+        if (p == a || (along > 0 && along < square && std::abs(cross(b - a, p - a)) <= tolerance * square)) return true;
     }
     return false;
 }
