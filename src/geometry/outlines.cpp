@@ -61,8 +61,8 @@ private:
 
     /// Divides files of curves, and leaves out lines that are no outlines.
     void divide_curves() {
-        for (const auto divide : {remove_auxiliary_lines, divide_counted_curves, divide_numbered_curves})
-            for (std::string& note : divide(section_)) notes_.push_back(std::move(note));
+        for (const auto divide_section : {remove_auxiliary_lines, divide_counted_curves, divide_numbered_curves})
+            for (std::string& note : divide_section(section_)) notes_.push_back(std::move(note));
     }
 
     /// Makes the first row a title where it cannot be anything else.

@@ -20,7 +20,7 @@ struct Numbers {
     std::vector<std::uint32_t> lines;  ///< of each number
 };
 
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == ','; }
+bool is_separator(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == ','; }
 
 /// Returns all numbers of a text; none where it holds anything else.
 Numbers numbers_of(std::string_view text) {
@@ -29,14 +29,14 @@ Numbers numbers_of(std::string_view text) {
     const char* at = text.data();
     const char* const end = at + text.size();
     while (at != end) {
-        if (is_blank(*at)) {
+        if (is_separator(*at)) {
             line += *at == '\n' ? 1 : 0;
             ++at;
             continue;
         }
         double value = 0;
         const auto [rest, error] = std::from_chars(at, end, value);
-        if (error != std::errc{} || !std::isfinite(value) || (rest != end && !is_blank(*rest))) return {};
+        if (error != std::errc{} || !std::isfinite(value) || (rest != end && !is_separator(*rest))) return {};
         numbers.values.push_back(value);
         numbers.lines.push_back(line);
         at = rest;

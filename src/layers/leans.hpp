@@ -34,7 +34,7 @@ double most_opening(OutlineKind kind, const LayerOptions& options);
 
 /// Sets the leans of all rays of an outline, where `heights` are those of the front at its vertices: those that the chain
 /// problem asks for (lean_chain.hpp), from the bisectors, at fans from the normals of the edges. Rays lean by no more than
-/// what keeps first heights above both edges, and fans keep a part of their angle. Rays of wakes do not lean.
+/// what keeps first heights above both edges, fans keep a part of their angle, and the ray at the end of a wake does not lean.
 /// Sources: the problem is that of R. Aubry and R. Löhner, On the 'most normal' normal, Commun. Numer. Meth. Engng 24 (2008),
 /// and V. Dyedov et al., Variational generation of prismatic boundary-layer meshes, Int. J. Numer. Meth. Engng 79 (2009), whose
 /// energies of angles and edges become one of columns.
