@@ -190,7 +190,6 @@ LayerHeights fit_heights(const RaySet& set, const LayerHeights& heights, std::sp
     limit_count_differences(set, layers);
     keep_counts_on_narrow_columns(set, ends, layers);
     limit_count_differences(set, layers);
-    lower_ends_beside_changes(set, layers, ends);
     core::parallel_for(limits.size(), 256, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             // A whole column that has fewer layers for the sake of its neighbours still ends where it did.

@@ -50,9 +50,6 @@ constexpr double least_cost = 0.05;
 /// is off a right angle by 53 degrees, or a skewness is 1.3.
 constexpr double most_wanted_cost = 3;
 constexpr std::size_t columns_to_move = 4;
-/// Beside a change where rows are off by more than the one tangent, the front gives way, if the other one is enough for
-/// that: steep steps of the front would shorten the layers beside (docs/decisions/0055).
-constexpr double most_tangent_of_change = 1.35, most_tangent_given = 0.2;
 /// Changes by several layers at a time are undone later (limit_count_differences()); they cost this many times as much.
 constexpr double several_at_once = 100;
 /// A number costs this much times the square of its distance from the one that is wanted.
@@ -215,22 +212,6 @@ void keep_counts_on_narrow_columns(const RaySet& set, std::span<const ColumnEnd>
         choices.push_back(choices.front());
         const std::vector<std::uint32_t> numbers = cheapest_numbers(choices);
         for (std::size_t k = 0; k < n; ++k) counts[begin + (first + k) % n] = numbers[k];
-    }
-}
-
-void lower_ends_beside_changes(const RaySet& set, std::span<const std::uint32_t> counts, std::span<ColumnEnd> ends) {
-    if (!uses("lower_ends")) return;
-    const RayNeighbours rays(set);
-    const auto lower = [&](std::size_t fewer, std::size_t more, std::size_t beyond) {
-        if (counts[more] != counts[fewer] + 1 || counts[fewer] == 0 || !ends[fewer].cut) return;
-        if (counts[beyond] < counts[fewer]) return;  // the change on its other side would cost more
-        const ColumnRow row = row_between(set.lines[fewer], ends[fewer].height, set.lines[more], ends[more].height);
-        const double excess = last_spacing(ends[more], counts[more]) - row.rise - most_tangent_of_change * row.width;
-        if (excess > 0 && excess <= most_tangent_given * row.width) ends[fewer].height -= excess;
-    };
-    for (std::size_t i = 0; i < counts.size(); ++i) {
-        lower(i, rays.next[i], rays.previous[i]);
-        lower(i, rays.previous[i], rays.next[i]);
     }
 }
 

@@ -28,9 +28,4 @@ struct ColumnEnd {
 void keep_counts_on_narrow_columns(const RaySet& set, std::span<const ColumnEnd> ends,
                                    std::vector<std::uint32_t>& counts);
 
-/// Lowers ends that something cuts short where the ray beside has a layer more and the rows that this shifts would
-/// still be off a right angle with the rays by more than 53.5 degrees. Where that would take more than a fifth of the
-/// distance of the two rays, it would make steps of the front, and ends stay.
-void lower_ends_beside_changes(const RaySet& set, std::span<const std::uint32_t> counts, std::span<ColumnEnd> ends);
-
 }  // namespace lamina::layers

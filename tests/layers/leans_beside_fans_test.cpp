@@ -289,32 +289,6 @@ TEST(NarrowColumns, ChangeWhereTheLastLayerIsLowAfterwards) {
     }
 }
 
-/// Where a layer is much higher than a column is wide, the front takes over a part of the step that rows make.
-TEST(NarrowColumns, EndsGiveWayBesideChangesOnNarrowColumns) {
-    const auto heights = [](std::vector<std::uint32_t> counts, double apart, bool cut) {
-        const RaySet set = parallel_rays(counts.size(), apart);
-        std::vector<layers::ColumnEnd> ends;
-        for (const std::uint32_t n : counts) ends.push_back(end_with({n, n}, cut));
-        layers::lower_ends_beside_changes(set, counts, ends);
-        std::vector<double> result;
-        for (const layers::ColumnEnd& end : ends) result.push_back(end.height);
-        return result;
-    };
-    const auto expect_near = [](const std::vector<double>& found, const std::vector<double>& wanted) {
-        ASSERT_EQ(found.size(), wanted.size());
-        for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], wanted[i], 1e-12) << i;
-    };
-    const std::vector<double> whole(6, 1);
-    const double apart = 0.066, lower = 0.9 + 1.35 * apart;
-    expect_near(heights({40, 40, 40, 41, 40, 40}, 0.08, true), whole);
-    expect_near(heights({40, 40, 40, 41, 41, 40}, apart, false), whole);
-    expect_near(heights({40, 40, 40, 41, 41, 41}, apart, true), {1, 1, lower, 1, 1, 1});
-    expect_near(heights({41, 41, 40, 40, 41, 41}, apart, true), {1, 1, lower, lower, 1, 1});
-    expect_near(heights({41, 41, 40, 41, 41, 41}, apart, true), {1, 1, lower, 1, 1, 1});
-    expect_near(heights({41, 41, 40, 40, 41, 41}, 0.05, true), whole);  // the front would be steep
-    expect_near(heights({40, 40, 41, 42, 42, 42}, apart, true), {1, lower, 1, 1, 1, 1});
-}
-
 TEST(NarrowColumns, KeepTheRangesOfTheirRays) {
     std::mt19937 random(3);
     std::uniform_int_distribution<std::uint32_t> wanted(20, 40), below(0, 4), above(0, 4);
