@@ -26,10 +26,10 @@ public:
     /// Returns the points of the run.
     PointSpan points() const { return points_.subspan(first_, end_ - first_); }
 
-    /// As geometry::is_loop().
+    /// Returns whether the run is a loop, as geometry::is_loop() does.
     bool is_loop() const;
 
-    /// As geometry::find_second_surface().
+    /// Returns where the second surface begins, as geometry::find_second_surface() does.
     std::optional<std::size_t> second_surface() const;
 
     /// Returns where a second surface begins in a run that steps back from the end of the first one to its start.

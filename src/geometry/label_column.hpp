@@ -15,7 +15,7 @@ namespace lamina::geometry {
 /// others number or name single points.
 class LabelledRowReader {
 public:
-    /// As RowReader. Throws InputError as RowReader::next() does.
+    /// Reads the rows of a text as RowReader does. Throws InputError as RowReader::next() does.
     LabelledRowReader(std::string_view text, const std::string& file);
 
     /// Returns the next row; nothing at the end.

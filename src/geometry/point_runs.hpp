@@ -18,7 +18,7 @@ bool is_loop(PointSpan points);
 /// surface do.
 bool are_two_surfaces(PointSpan a, PointSpan b);
 
-/// As above, where the larger extent of the two runs is known.
+/// Returns the same where the larger extent of the two runs is known.
 bool are_two_surfaces(PointSpan a, PointSpan b, double size);
 
 /// Returns one run over the upper surface from its end to its start, then over the lower surface. A first point that

@@ -18,8 +18,8 @@ struct ChainLeans {
     std::size_t steps = 0;      ///< of Newton's method
 };
 
-/// What the width of a column lacks at the front, over the front's height: angles, in radians, by which its rays should diverge
-/// more than they do without leans. A column that lacks nothing has any negative number, down to minus infinity.
+/// The lack of width of a column at the front, over the front's height: the angles, in radians, by which its rays should
+/// diverge more than they do without leans. A column that lacks nothing has any negative number, down to minus infinity.
 struct ColumnLack {
     double wanted;  ///< for it to be as wide as columns should be
     double least;   ///< for its rays not to meet near the front

@@ -5,6 +5,7 @@
 
 #include "core/angles.hpp"
 #include "core/reproducible_math.hpp"
+#include "core/rounding.hpp"
 #include "layers/corner_shifts.hpp"
 #include "layers/lean_chain.hpp"
 
@@ -21,11 +22,11 @@ constexpr double fronts_on_jagged = 8;
 /// it meets (ray_fraction in truncation.cpp), so that all layers fit below.
 constexpr double clearance = 2.25;
 /// What a lack of this clearance weighs beside one of the wanted width.
-constexpr double weight_of_clearance = 10;
+constexpr double weight_of_clearance = 3;
 /// The stiffness of the chain over the square of LayerOptions::max_ray_angle_deg, in radians: on walls of twice as many edges
 /// and rays at half the angle a lack is spread over twice as many columns. Where corners follow each other closely, more
 /// columns share what each has too much.
-constexpr double stiffness_on_smooth = 2.6, stiffness_on_jagged = 0.16;
+constexpr double stiffness_on_smooth = 0.78, stiffness_on_jagged = 0.16;
 /// Largest lean of the first and the last ray of a fan, in degrees, and the share of the fan's angle that each gives at most
 /// to the columns beside it.
 constexpr double most_fan_lean_deg = 25, most_given_share = 0.3;
@@ -117,7 +118,8 @@ double most_opening(OutlineKind kind, const LayerOptions& options) {
 
 void lean_rays(std::span<const RayVertex> outline, std::span<const double> heights, OutlineKind kind,
                const LayerOptions& options, const LayerGrowth& growth, std::vector<WallVertex>& vertices) {
-    constexpr int rounds = 3;  // the leans of one decide the widths of the next
+    constexpr int rounds = 3;              // the leans of one decide the widths of the next
+    constexpr double lean_step = 0x1p-12;  // radians: leans that differ by rounding errors become equal
     // Columns need be no wider than where corners follow each other, however far rays may diverge.
     const double angle = std::min(most_opening(kind, options), core::radians(max_jagged_ray_angle_deg));
     const double wanted = wanted_width(kind, growth, angle),
@@ -128,7 +130,8 @@ void lean_rays(std::span<const RayVertex> outline, std::span<const double> heigh
     for (int round = 0; round < rounds; ++round) {
         const Leaners leaners = leaners_of(outline, measured, kind, wanted, growth.first_height, vertices);
         const ChainLeans solution = minimise_leans(leaners.lacks, leaners.bounds, weight_of_clearance, stiffness);
-        for (std::size_t k = 0; k < leaners.leans.size(); ++k) *leaners.leans[k] = solution.leans[k];
+        for (std::size_t k = 0; k < leaners.leans.size(); ++k)
+            *leaners.leans[k] = core::rounded_to_multiple(solution.leans[k], lean_step);
         for (WallVertex& vertex : vertices)
             if (!vertex.fan) vertex.lean[1] = vertex.lean[0];
     }

@@ -105,7 +105,7 @@ TEST(FitHeights, LayersInAWedgeThinWithoutSteps) {
         const Ray &ray = rays[i], &next = rays[i + 1];
         const double x = layer.points[ray.origin.index()].x;
         if (x < 0.3 || x > 3.6 || ray.direction.y < 0.999 || next.direction.y < 0.999) continue;
-        EXPECT_NEAR(tip(ray).y / tip(next).y, 1, 0.09);
+        EXPECT_NEAR(tip(ray).y / tip(next).y, 1, 0.08);
         ++compared;
     }
     EXPECT_GT(compared, 60u);

@@ -51,7 +51,7 @@ std::vector<RayLine> rays_of(const Outline& outline, const LayerOptions& options
 }
 
 TEST(Rays, AreBisectorsWhereTheWallIsConvexOrTurnsGently) {
-    const LayerOptions options = layers_as_high_as(0.002);
+    const LayerOptions options = layers_as_high_as(0.02);
     for (const Outline& outline : {shapes::circle(1, 80), shapes::joukowski(0.08, 0.3, 300)}) {
         const std::vector<RayLine> rays = rays_of(outline, options);
         for (std::size_t i = 0; i < outline.size(); ++i) {
