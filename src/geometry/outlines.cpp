@@ -20,6 +20,8 @@ namespace lamina::geometry {
 
 namespace {
 
+constexpr std::size_t max_outlines = 100'000;  // of one file; an element takes some 600 bytes beside its points
+
 /// Appends the outlines of one section to a list.
 class SectionAssembler {
 public:
@@ -51,7 +53,11 @@ private:
     std::vector<RawOutline>& outlines_;
     std::vector<std::string> notes_;  ///< for the next outline
 
+    /// Throws InputError where a file has more outlines than the memory for its size holds as elements.
     void add(std::vector<SourcePoint> points, const std::string& title, const std::string& format) {
+        if (outlines_.size() == max_outlines)
+            throw InputError({file_, points.front().line, points.front().at},
+                             fmt::format("more than {} outlines in one file", max_outlines));
         RawOutline& outline = outlines_.emplace_back();
         outline.points = std::move(points);
         outline.title = title;

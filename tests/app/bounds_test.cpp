@@ -73,6 +73,7 @@ TEST(Bounds, MemoryOfReaders) {
                   {"info", "comment_lines.dat", repeated("1 1\n#\n2 1\n#\n2 2\n#\n", 300'000)},
                   {"info", "titles.dat", repeated("1 1\na\n", 900'000)},
                   {"info", "separators.dat", repeated("1 1\n999 999\n", 450'000)},
+                  {"info", "squares.dat", repeated("0 0\n9 0\n9 9\n0 9\n\n", 300'000)},
                   {"info", "brackets.dat", repeated("(1,1),", 900'000)},
                   {"check", "bomb.vtu", vtu_that_claims(std::uint64_t{1} << 31, std::string(4'000'000, 'x'))},
                   {"check", "claim.vtu", vtu_that_claims(~std::uint64_t{0}, "x")},
