@@ -177,6 +177,9 @@ struct RayLine {
     /// (docs/decisions/0071).
     double opening = 1;
     double least_height = 0;  ///< that of its column: LayerGrowth::least_heights or WakePoint
+    /// Height along the ray over the height above the wall's edges beside it, which the growth law gives: 1 for a ray
+    /// along their normals, 1.41 for one out of a cove corner of 90 degrees; at most max_slant.
+    double slant = 1;
     /// All points of its layers lie beside the line by this vector, so that the first layer has its height above both
     /// edges at a corner out of which the ray leans; zero elsewhere (docs/decisions/0064).
     Point shift{};
@@ -195,16 +198,15 @@ struct Stretch {
 /// The column of heights on one ray: a part of LayerHeights::table().
 struct HeightColumn {
     std::size_t first = 0;          ///< index in the table where the column begins
-    std::uint32_t layers = 0;       ///< number of layers requested
+    std::uint32_t layers = 0;       ///< number of layers up to the front
     double growth = 0;              ///< as Ray::growth
     Stretch stretch{};              ///< as Ray::stretch
-    double slant = 1;               ///< as Ray::slant
     double max_spacing = HUGE_VAL;  ///< as Ray::max_spacing
-    double opening = 1;             ///< as Ray::opening
+    bool cut = false;               ///< whether the front is lower than the asked height
     double taper = 1;               ///< as Ray::taper
 };
 
-/// The heights of the requested layers, ray by ray. Rays with the same heights share a part of the table.
+/// The heights of layers up to the front, ray by ray.
 class LayerHeights {
 public:
     LayerHeights() = default;
@@ -214,16 +216,11 @@ public:
 
     /// Returns the column of a ray.
     const HeightColumn& column(std::size_t ray) const { return columns_[ray]; }
-    /// Returns the heights on a ray. Entry n is the height of layer n; entry 0 is 0, and the last entry belongs to the
-    /// last layer requested.
+    /// Returns the heights on a ray. Entry n is the height of layer n, and entry 0 is 0.
     std::span<const double> of(std::size_t ray) const {
         const HeightColumn& column = columns_[ray];
         return {table_.data() + column.first, column.layers + std::size_t{1}};
     }
-    /// Returns the height of the last layer requested on a ray.
-    double full_height(std::size_t ray) const { return of(ray).back(); }
-    /// Returns the largest full height of all rays.
-    LAMINA_EXPORT double max_height() const;
     /// Returns the heights of all columns, one column after the other.
     const std::vector<double>& table() const { return table_; }
 
@@ -266,13 +263,16 @@ struct Rays {
     std::vector<char> jagged;
     bool enabled = true;  ///< LayerOptions::enabled
     /// LayerOptions::topology. Last layers of quadrilaterals are not made higher where rays lean or numbers of layers change,
-    /// since faces between them would be more skewed for it (docs/decisions/0063). Tops of flat cells of the grid stay whole:
-    /// a point on them makes an angle near 180 degrees, where a Delaunay triangulation joins it to points farther below.
+    /// since faces between them would be more skewed for it (docs/decisions/0063). Tops of cells of the grid on resampled walls stay whole where
+    /// they are little longer than asked for: a point on a flat one makes an angle near 180 degrees, where a Delaunay
+    /// triangulation joins it to points farther below.
     LayerTopology topology = LayerTopology::layered;
-    LayerGrowth growth;                 ///< the growth that was requested
-    LayerHeights heights;               ///< as the growth law makes them, along the rays (Ray::slant)
-    LayerHeights fitted;                ///< the same, but on rays that are cut short stretched to end at their limits
-    std::vector<double> limits;         ///< height beyond which something is in a ray's way; empty if disabled
+    LayerGrowth growth;         ///< the growth that was requested
+    std::vector<double> asked;  ///< height along each ray at which its layers are to end; empty if disabled
+    std::vector<std::uint32_t> asked_layers;  ///< number of layers up to there; empty if disabled
+    std::vector<double> limits;               ///< height beyond which something is in a ray's way; empty if disabled
+    std::vector<double> front;          ///< height at which the columns end, at most the asked one; empty if disabled
+    LayerHeights heights;               ///< the columns up to the front
     std::vector<std::uint32_t> counts;  ///< number of layers on each ray
     std::vector<double> wake_lengths;   ///< one per element: length of the wake with layers, 0 without
     std::vector<WakeCore> cores;        ///< behind bases of elements whose layers go on along a wake
@@ -310,8 +310,7 @@ struct BorderOptions {
     /// only where rounding would make division points cross something.
     double max_ratio = 1.4;
     /// No edge is longer than 1.1 x (length of any other edge) + gradation x distance, nor than 1.29 times that over a
-    /// cell that leans by more than it is wide, or over a flat or high one of the grid on a resampled wall
-    /// (Rays::topology).
+    /// cell of the grid on a resampled wall (Rays::topology).
     double gradation = 0.1;
     double max_edge = HUGE_VAL;  ///< largest length of an edge, in units of the input
     /// No edge is longer than size + gradation x distance of any of these sources. An edge may exceed that by up to a

@@ -11,9 +11,9 @@
 #include "core/angles.hpp"
 #include "core/box_tree.hpp"
 #include "core/segments.hpp"
-#include "layers/fit_heights.hpp"
 #include "layers/growth_laws.hpp"
 #include "layers/least_heights.hpp"
+#include "layers/stretch.hpp"
 #include "layers/taper.hpp"
 
 namespace lamina::layers {
@@ -197,10 +197,9 @@ private:
                            : ray.growth != law.ray_growth(growth))
             report("ray has not the growth of its law", origin);
         std::vector<double> heights = law.heights(growth.first_height, ray.growth, ray.layers);
-        open_heights(ray.opening, heights);
+        for (double& height : heights) height *= ray.slant * ray.opening;
         limit_spacings(ray.max_spacing, heights);
         stretch_heights(ray.stretch, heights);
-        for (double& height : heights) height *= ray.slant;
         taper_heights(ray.taper, heights);
         if (!(ray.slant >= 1 && ray.slant <= max_slant))
             report(fmt::format("ray has a slant of {}", ray.slant), origin);

@@ -20,14 +20,10 @@ namespace {
 
 using FrontCorners = std::vector<std::vector<FrontCorner>>;
 
-/// The top of a cell that is flat or high, or leans by more than it is wide, stays whole up to this many times its target:
-/// up to where its halves would be as much too short as it is too long.
+/// The top of a cell of the grid stays whole up to this many times its target: up to where its halves would be as much too
+/// short as it is too long. A point on the top of a flat cell makes an angle near 180 degrees, and halves of the tops of high
+/// ones are farther in area from the triangles beyond. Walls that are kept have no other way to become finer than their borders.
 constexpr double whole_top = std::numbers::sqrt2;
-/// A cell is flat that is this many times as wide as high. The angle at the middle of its top would be 150 degrees.
-constexpr double flat_cell = 7.46;
-/// From this height on, in widths, half of a cell is nearer in area to the equilateral triangle on its whole top than a
-/// quarter of it is to that on half of its top: the root of 3 / 8.
-constexpr double high_cell = 0.6124;
 
 /// Divides the fronts through these corners. least_requests, whole_up_to: as for divide_borders().
 BorderDivision divide_fronts(const LayeredRays& rays, const FrontCorners& corners, const BorderOptions& options,
@@ -45,49 +41,15 @@ BorderDivision divide_fronts(const LayeredRays& rays, const FrontCorners& corner
     return divide_borders(fronts, walls, options, least_requests, whole_up_to);
 }
 
-/// Returns whether the cell below the edge between two corners leans by more than it is wide: seen along its normals,
-/// the edge and that between its lower corners do not overlap. Triangles below parts of the edge would have their
-/// middles farther to the side than the parts are long, which makes skewed faces (docs/decisions/0060).
-bool leans_by_its_width(const LayeredRays& rays, const FrontCorner& a, const FrontCorner& b) {
-    if (a.layers == 0 || b.layers == 0 || a.cleft) return false;
-    const Point tip_a = rays.tip(a.ray), tip_b = rays.tip(b.ray), edge = tip_b - tip_a;
-    const double along_a = dot(tip_a - rays.point(a.ray, a.layers - 1), edge);
-    const double along_b = dot(tip_b - rays.point(b.ray, b.layers - 1), edge);
-    return std::min(along_a, along_b) > squared_length(edge) || std::max(along_a, along_b) < -squared_length(edge);
-}
-
-/// The cell of the layer below the edge of a front between two corners: the length of the edge, and the heights of the last
-/// layer at its ends.
-struct TopCell {
-    double width, height_a, height_b;
-};
-
-/// Returns the cell below the edge between two corners, or nothing where a corner has no layers or the edge lies before a cleft.
-std::optional<TopCell> top_cell(const LayeredRays& rays, const FrontCorner& a, const FrontCorner& b) {
-    if (a.layers == 0 || b.layers == 0 || a.cleft) return std::nullopt;
-    const auto last_height = [&](const FrontCorner& corner) {
-        return distance(rays.tip(corner.ray), rays.point(corner.ray, corner.layers - 1));
-    };
-    return TopCell{distance(rays.tip(a.ray), rays.tip(b.ray)), last_height(a), last_height(b)};
-}
-
-/// Returns whether a cell is flat. The angle between the lines from the middle of its top to its lower corners would be near
-/// 180 degrees.
-bool is_flat(const TopCell& cell) { return cell.width > flat_cell * std::max(cell.height_a, cell.height_b); }
-
-/// Returns whether a cell is so high that its triangles match those beyond better with its whole top than with half of it.
-bool is_high(const TopCell& cell) { return 0.5 * (cell.height_a + cell.height_b) > high_cell * cell.width; }
-
-/// Returns what divide_borders() needs to leave the tops of flat, high and leaning cells whole.
-std::vector<std::vector<double>> whole_tops(const Rays& grown, const LayeredRays& rays, const FrontCorners& corners) {
+/// Returns what divide_borders() needs to leave the tops of the grid's cells whole.
+std::vector<std::vector<double>> whole_tops(const Rays& grown, const FrontCorners& corners) {
     const bool of_grid = grown.topology != LayerTopology::delaunay;
     std::vector<std::vector<double>> whole_up_to(corners.size());
     for (std::size_t e = 0; e < corners.size(); ++e)
         for (std::size_t k = 0; k < corners[e].size(); ++k) {
             const FrontCorner &a = corners[e][k], &b = corners[e][(k + 1) % corners[e].size()];
-            const std::optional<TopCell> cell = top_cell(rays, a, b);
-            const bool suits = cell && of_grid && grown.resampled[e] && (is_flat(*cell) || is_high(*cell));
-            const bool whole = uses("whole_tops") && (suits || leans_by_its_width(rays, a, b));
+            const bool has_cell = a.layers > 0 && b.layers > 0 && !a.cleft;
+            const bool whole = uses("whole_tops") && of_grid && grown.resampled[e] && has_cell;
             whole_up_to[e].push_back(whole ? whole_top : target_slack);
         }
     return whole_up_to;
@@ -155,9 +117,9 @@ Layer close_border(const Rays& rays, const BorderOptions& options) {
     validate(options);
     const LayeredRays layered = layered_rays(rays);
     const FrontCorners corners = front_corners(layered);
-    const std::vector<std::vector<double>> whole_up_to = whole_tops(rays, layered, corners);
+    const std::vector<std::vector<double>> whole_up_to = whole_tops(rays, corners);
     Layer layer = build_layer(rays, corners, divide_fronts(layered, corners, options, {}, whole_up_to));
-    if (rays.enabled) layer.coverage = layer_coverage(rays.set, rays.heights, rays.counts);
+    if (rays.enabled) layer.coverage = layer_coverage(rays);
     layer.growth = rays.growth;
     layer.jagged = rays.jagged;
     layer.edges = layer_edges(layer);

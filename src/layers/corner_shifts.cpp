@@ -70,7 +70,7 @@ double max_lean_between_edges(double turning, OutlineKind kind, double first_hei
     return std::max(shifted, max_unshifted_lean(turning));
 }
 
-void shift_rays_of_corners(std::span<const char> jagged, const LayerHeights& heights, RaySet& set) {
+void shift_rays_of_corners(std::span<const char> jagged, const LayerGrowth& growth, RaySet& set) {
     if (!uses("corner_shifts")) return;
     const RayNeighbours neighbours(set);
     std::size_t element = 0;
@@ -79,11 +79,11 @@ void shift_rays_of_corners(std::span<const char> jagged, const LayerHeights& hei
         RayLine& ray = set.lines[i];
         const RayLine &before = set.lines[neighbours.previous[i]], &after = set.lines[neighbours.next[i]];
         const auto on_wall = [](const RayLine& line) { return line.place == RayPlace::wall; };
-        if (!on_wall(before) || !on_wall(ray) || !on_wall(after) || heights.of(i).size() < 2) continue;
+        if (!on_wall(before) || !on_wall(ray) || !on_wall(after)) continue;
         if (before.origin == ray.origin || after.origin == ray.origin) continue;  // a ray of a fan
         const double least_turning = jagged[element] ? 0 : core::radians(max_smooth_turning_deg);
-        const double along = heights.of(i)[1];
-        ray.shift = shift_at_corner(before, ray, after, along, along / heights.column(i).slant, least_turning);
+        const double above = ray.opening * growth.first_height_on(element), along = ray.slant * above;
+        ray.shift = shift_at_corner(before, ray, after, along, above, least_turning);
     }
 }
 

@@ -12,16 +12,12 @@
 #include "core/box_tree.hpp"
 #include "core/segments.hpp"
 #include "layers/layered_rays.hpp"
-#include "layers/mechanisms.hpp"
 #include "layers/neighbours.hpp"
 
 namespace lamina::layers {
 
 namespace {
 
-/// Fronts must stay simple with all heights multiplied by this factor, which leaves space for isotropic triangles
-/// between them.
-constexpr double raised_scale = 1.25;
 /// Where fronts meet, a ray loses one in this many of its layers at a time, and one more.
 constexpr std::uint32_t lowering_divisor = 8;
 
@@ -46,11 +42,9 @@ public:
     CountLowering& operator=(const CountLowering&) = delete;
 
     std::vector<std::uint32_t> run() && {
-        for (double scale : {uses("raised_scale") ? raised_scale : 1.0, 1.0}) {
-            do {
-                lower_locally();
-            } while (lower_where_fronts_meet(scale) || lower_round_other_elements());
-        }
+        do {
+            lower_locally();
+        } while (lower_where_fronts_meet() || lower_round_other_elements());
         return std::move(counts_);
     }
 
@@ -85,28 +79,7 @@ private:
     void lower_locally() {
         do {
             limit_count_differences(set_, counts_);
-        } while (open_notches() || lower_bad_cells());
-    }
-
-    /// Widens notches of the front that are sharper than 60 degrees. A ray that is lower than a neighbour makes a
-    /// notch; lowering the neighbours widens it.
-    bool open_notches() {
-        const std::vector<std::uint32_t> before = counts_;
-        bool changed = false;
-        if (!uses("notches")) return false;
-        for (std::size_t i = 0; i < set_.lines.size(); ++i) {
-            const std::size_t left = previous(i), right = next(i);
-            if (before[left] <= before[i] && before[right] <= before[i]) continue;
-            const Point at = rays_.point(i, before[i]), a = rays_.point(left, before[left]),
-                        b = rays_.point(right, before[right]);
-            if (orient2d(a, at, b) >= 0) continue;
-            const Point u = a - at, v = b - at;
-            const double projection = dot(u, v);
-            if (projection <= 0 || 4 * projection * projection <= squared_length(u) * squared_length(v)) continue;
-            changed |= lower_to(left, before[i]);
-            changed |= lower_to(right, before[i]);
-        }
-        return changed;
+        } while (lower_bad_cells());
     }
 
     /// Returns whether all cells between two neighbouring rays are positively oriented. They are where, in each layer,
@@ -152,10 +125,10 @@ private:
     }
 
     /// Returns the corners of one element's front.
-    std::vector<FrontTip> front_of(std::size_t element, double scale) const {
+    std::vector<FrontTip> front_of(std::size_t element) const {
         std::vector<FrontTip> tips;
         for (std::size_t i = set_.begin[element]; i < set_.begin[element + 1]; ++i) {
-            const Point at = rays_.tip(i, scale);
+            const Point at = rays_.tip(i);
             if (!tips.empty() && tips.back().at == at) {
                 tips.back().last_ray = i;
             } else {
@@ -224,10 +197,10 @@ private:
         }
     }
 
-    /// Lowers the rays at places where fronts, with all heights multiplied by `scale`, meet each other or a wall.
-    bool lower_where_fronts_meet(double scale) {
+    /// Lowers the rays at places where fronts meet each other or a wall.
+    bool lower_where_fronts_meet() {
         std::vector<std::vector<FrontTip>> fronts;
-        for (std::size_t e = 0; e < set_.elements(); ++e) fronts.push_back(front_of(e, scale));
+        for (std::size_t e = 0; e < set_.elements(); ++e) fronts.push_back(front_of(e));
         std::vector<TipEdge> edges;
         std::vector<const FrontTip*> meeting;
         for (const std::vector<FrontTip>& front : fronts) add_edges(front, edges, meeting);
@@ -276,14 +249,10 @@ private:
 
 }  // namespace
 
-std::vector<std::uint32_t> layer_counts(const RaySet& set, std::span<const double> limits,
-                                        const LayerHeights& heights) {
-    std::vector<std::uint32_t> counts(set.lines.size());
-    for (std::size_t i = 0; i < counts.size(); ++i) {
-        const std::span<const double> column = heights.of(i);
-        const auto first_above = std::upper_bound(column.begin(), column.end(), limits[i]);
-        counts[i] = static_cast<std::uint32_t>(first_above - column.begin()) - 1;
-    }
+std::vector<std::uint32_t> layer_counts(const RaySet& set, const LayerHeights& heights) {
+    std::vector<std::uint32_t> counts;
+    counts.reserve(set.lines.size());
+    for (std::size_t i = 0; i < set.lines.size(); ++i) counts.push_back(heights.column(i).layers);
     return CountLowering(set, heights, std::move(counts)).run();
 }
 

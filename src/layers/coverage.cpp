@@ -7,6 +7,7 @@
 #include "core/box_tree.hpp"
 #include "core/parallel.hpp"
 #include "core/segments.hpp"
+#include "layers/layered_rays.hpp"
 
 namespace lamina::layers {
 
@@ -19,7 +20,7 @@ constexpr double inner_share = 0.95;
 /// Returns, for each ray, whether it is in the open: whether the circle that touches the wall at its origin, open_space
 /// full heights in diameter, holds no wall. An empty circle measures free space in slots, at corners and along tight
 /// curvature alike.
-std::vector<char> open_rays(const RaySet& set, const LayerHeights& heights, std::span<const std::size_t> next) {
+std::vector<char> open_rays(const RaySet& set, std::span<const double> asked, std::span<const std::size_t> next) {
     std::vector<std::pair<Point, Point>> edges;
     std::vector<Box> boxes;
     for (std::size_t i = 0; i < set.lines.size(); ++i) {
@@ -32,7 +33,7 @@ std::vector<char> open_rays(const RaySet& set, const LayerHeights& heights, std:
     std::vector<char> open(set.lines.size());
     core::parallel_for(set.lines.size(), 512, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            const double height = heights.full_height(i) / heights.column(i).slant;
+            const double height = asked[i] / set.lines[i].slant;
             const double radius = 0.5 * open_space * height, inner = inner_share * radius;
             const Point middle = set.lines[i].origin + radius * set.lines[i].direction;
             const double nearest = walls.min_distance(middle, inner, [&](std::size_t j) {
@@ -56,18 +57,18 @@ void add_ray(bool complete, LayerCoverage& coverage) {
 
 }  // namespace
 
-std::vector<ElementCoverage> layer_coverage(const RaySet& set, const LayerHeights& heights,
-                                            std::span<const std::uint32_t> counts) {
+std::vector<ElementCoverage> layer_coverage(const Rays& rays) {
+    const auto& [set, heights, counts] = layered_rays(rays);
     const std::vector<std::size_t> next = set.following();
-    const std::vector<char> open = open_rays(set, heights, next);
+    const std::vector<char> open = open_rays(set, rays.asked, next);
     std::vector<ElementCoverage> coverage(set.elements());
     for (std::size_t e = 0; e < set.elements(); ++e) {
         auto& [all, in_the_open, worst] = coverage[e];
         double most_missing = 0;
         for (std::size_t i = set.begin[e]; i < set.begin[e + 1]; ++i) {
             if (set.lines[i].place != RayPlace::wall) continue;
-            const std::uint32_t requested = heights.column(i).layers;
-            const std::uint32_t requested_cells = std::min(requested, heights.column(next[i]).layers),
+            const std::uint32_t requested = rays.asked_layers[i];
+            const std::uint32_t requested_cells = std::min(requested, rays.asked_layers[next[i]]),
                                 made_cells = std::min(counts[i], counts[next[i]]);
             add_ray(counts[i] == requested, all);
             add_cells(requested_cells, made_cells, all);

@@ -11,7 +11,6 @@
 #include "core/bounding_box.hpp"
 #include "layers/corner_shifts.hpp"
 #include "layers/heights.hpp"
-#include "layers/insert_rays.hpp"
 #include "layers/layered_rays.hpp"
 #include "layers/least_heights.hpp"
 #include "layers/low_fans.hpp"
@@ -29,13 +28,10 @@ namespace {
 constexpr double max_relative_thickness = 1e4;
 /// Heights must exceed this many units of rounding of the coordinates, or points on the rays would not be distinct.
 constexpr double min_roundings = 64;
-/// Rays are added at most this many times where numbers of layers change, since added rays find limits of their own,
-/// which may ask for more rays.
-constexpr int max_insertions = 2;
 
 /// Throws OptionError for heights below the resolution of the coordinates and for layers much thicker than the box of
 /// the configuration.
-void require_sensible_scale(const Box& box, const LayerGrowth& growth, const LayerHeights& heights) {
+void require_sensible_scale(const Box& box, const LayerGrowth& growth, std::span<const double> asked) {
     const double extent = core::longer_side(box);
     const double max_coordinate =
         std::max({std::abs(box.lower.x), std::abs(box.lower.y), std::abs(box.upper.x), std::abs(box.upper.y)});
@@ -45,7 +41,7 @@ void require_sensible_scale(const Box& box, const LayerGrowth& growth, const Lay
     if (!(least > min_roundings * std::numeric_limits<double>::epsilon() * max_coordinate))
         throw OptionError("first_height", fmt::format("{} is below the resolution of coordinates as large as {}", least,
                                                       max_coordinate));
-    const double thickness = heights.max_height();
+    const double thickness = *std::max_element(asked.begin(), asked.end());
     if (!(thickness <= max_relative_thickness * extent))
         throw OptionError("layers",
                           fmt::format("the requested layers are {:.3g} thick, {:.3g} times the extent of the input",
@@ -55,13 +51,14 @@ void require_sensible_scale(const Box& box, const LayerGrowth& growth, const Lay
 /// Returns the height of all layers at each vertex of an outline: the largest of its rays.
 std::vector<double> front_heights(std::span<const RayVertex> outline, std::span<const RayLine> rays,
                                   const LayerGrowth& growth) {
-    const RaySet set{{rays.begin(), rays.end()}, {0, rays.size()}};
-    const LayerHeights heights = make_heights(set, growth);
+    RaySet set{{rays.begin(), rays.end()}, {0, rays.size()}};
+    set_slants(set);
+    const std::vector<double> asked = asked_heights(set, growth);
     std::vector<double> result(outline.size(), 0.0);
     std::size_t vertex = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         if (vertex + 1 < outline.size() && rays[i].origin == outline[vertex + 1].at) ++vertex;
-        if (rays[i].origin == outline[vertex].at) result[vertex] = std::max(result[vertex], heights.full_height(i));
+        if (rays[i].origin == outline[vertex].at) result[vertex] = std::max(result[vertex], asked[i]);
     }
     return result;
 }
@@ -95,22 +92,23 @@ bool lower_first_layers(Rays& rays, Share share) {
     bool changed = false;
     for (std::size_t i = 0; i < rays.set.lines.size(); ++i) {
         RayLine& ray = rays.set.lines[i];
-        if (ray.place != RayPlace::wall || rays.heights.of(i).size() < 2) continue;
+        if (ray.place != RayPlace::wall) continue;
         const double lower = ray.opening * share(i);
         if (!(lower < ray.opening) || lower < least_opening) continue;
         ray.opening = lower;
         changed = true;
     }
-    if (changed) rays.heights = make_heights(rays.set, rays.growth);
+    if (changed) rays.asked = asked_heights(rays.set, rays.growth);
     return changed;
 }
 
 /// Gives rays without room for a first layer a lower one.
 void fit_first_layers(Rays& rays) {
     constexpr double below_limit = 0.999;  // so that rounding does not take the layer away
+    const std::vector<double> first = first_heights_along(rays.set, rays.growth);
     lower_first_layers(rays, [&](std::size_t i) {
-        const double first = rays.heights.of(i)[1];
-        return rays.limits[i] < first ? below_limit * rays.limits[i] / first : 1;
+        const double room = first_layer_room * rays.limits[i];
+        return room < first[i] ? below_limit * room / first[i] : 1;
     });
 }
 
@@ -119,7 +117,7 @@ void fit_first_layers(Rays& rays) {
 void count_layers_on_all_rays(Rays& rays) {
     constexpr int max_rounds = 6;
     for (int round = 0;; ++round) {
-        shift_rays_of_corners(rays.jagged, rays.heights, rays.set);
+        shift_rays_of_corners(rays.jagged, rays.growth, rays.set);
         fit_and_count_layers(rays);
         if (round == max_rounds || !uses("lower_first")) return;
         const auto share = [&](std::size_t i) { return rays.counts[i] == 0 ? 0.5 : 1; };
@@ -130,14 +128,9 @@ void count_layers_on_all_rays(Rays& rays) {
 /// Grows the rays of these walls and wakes.
 void grow_from(const Geometry& geometry, std::span<const DividedWake> wakes, const LayerOptions& options, Rays& rays) {
     rays.set = rays_of(geometry, wakes, options, rays.growth);
-    rays.heights = make_heights(rays.set, rays.growth);
-    require_sensible_scale(bounding_box(geometry), rays.growth, rays.heights);
-    rays.limits = height_limits(rays.set, rays.heights);
-    if (!options.fan_rays && uses("low_fans"))
-        replace_rays(leave_out_rays_of_low_fans(rays.set, rays.jagged, rays.heights, rays.limits), rays);
-    for (int insertion = 0; insertion < max_insertions && !options.fan_rays && uses("insert_rays"); ++insertion)
-        if (!replace_rays(insert_rays_where_counts_change(rays.set, rays.jagged, rays.heights, rays.limits), rays))
-            break;
+    measure_room(rays);
+    require_sensible_scale(bounding_box(geometry), rays.growth, rays.asked);
+    if (!options.fan_rays && uses("low_fans")) replace_rays(leave_out_rays_of_low_fans(rays), rays);
     if (uses("fit_first")) fit_first_layers(rays);
     count_layers_on_all_rays(rays);
 }
@@ -146,8 +139,7 @@ void grow_from(const Geometry& geometry, std::span<const DividedWake> wakes, con
 std::vector<double> needed_heights(const Rays& walls) {
     const bool all = walls.growth.least_heights.empty();
     std::vector<double> needed = least_heights(walls.set);
-    for (std::size_t i = 0; i < needed.size(); ++i)
-        needed[i] = std::min({all ? HUGE_VAL : needed[i], walls.limits[i], walls.heights.full_height(i)});
+    for (std::size_t i = 0; i < needed.size(); ++i) needed[i] = std::min(all ? HUGE_VAL : needed[i], walls.front[i]);
     return needed;
 }
 
@@ -200,7 +192,7 @@ Rays grow_rays(const Geometry& geometry, const LayerOptions& options, const Laye
     if (!options.enabled) {
         rays.set = bare_walls(geometry);
         rays.counts.assign(rays.set.lines.size(), 0);
-        rays.fitted = LayerHeights({0.0}, std::vector<HeightColumn>(rays.set.lines.size()));
+        rays.heights = LayerHeights({0.0}, std::vector<HeightColumn>(rays.set.lines.size()));
         return rays;
     }
     if (!growth.first_heights.empty() && growth.first_heights.size() != geometry.elements.size())

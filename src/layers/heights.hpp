@@ -1,39 +1,41 @@
-// The heights of the requested layers on each ray.
+// Columns: the heights of the layers on each ray, from what is asked for and from where the front is to lie.
 #pragma once
 
-#include <cstddef>
+#include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include <lamina/layers.hpp>
 
 namespace lamina::layers {
 
-/// Returns heights of which some columns are others: change(ray, column, heights) changes a column and its heights where
-/// is_changed(ray), in a part of the table of its own.
-template <class IsChanged, class Change>
-LayerHeights changed_columns(const LayerHeights& heights, std::size_t rays, IsChanged is_changed, Change change) {
-    std::vector<double> table = heights.table();
-    std::vector<HeightColumn> columns;
-    columns.reserve(rays);
-    for (std::size_t i = 0; i < rays; ++i) {
-        HeightColumn& column = columns.emplace_back(heights.column(i));
-        if (!is_changed(i)) continue;
-        column.first = table.size();
-        const std::span<const double> before = heights.of(i);
-        table.insert(table.end(), before.begin(), before.end());
-        change(i, column, std::span(table).subspan(column.first));
-    }
-    return LayerHeights(std::move(table), std::move(columns));
-}
-
 /// Returns the height of all requested layers over a wall whose vertices lie `spacing` apart. It is an estimate where
 /// the number of layers or the growth depends on the spacing.
 double expected_height(const LayerGrowth& growth, double spacing);
 
-/// Returns the heights of the requested layers on each ray. Throws OptionError where more than 1000 layers would be
-/// needed up to isotropy.
-LayerHeights make_heights(const RaySet& set, const LayerGrowth& growth);
+/// Sets the slants of rays: RayLine::slant.
+void set_slants(RaySet& set);
+
+/// Returns the first height along a ray. first_height: that wanted above the wall.
+inline double first_height_along(const RayLine& ray, double first_height) {
+    return ray.slant * ray.opening * first_height;
+}
+
+/// Returns the first height along each ray.
+std::vector<double> first_heights_along(const RaySet& set, const LayerGrowth& growth);
+
+/// Returns the height along each ray at which the requested layers end where nothing is in their way: that of their number,
+/// of their thickness, or of isotropy, and at least that of the flow's boundary layer. Throws OptionError where more than
+/// 1000 layers would be needed up to isotropy. Precondition: slants are set.
+std::vector<double> asked_heights(const RaySet& set, const LayerGrowth& growth);
+
+/// Returns the number of layers on each ray up to the asked height.
+std::vector<std::uint32_t> asked_layers(const RaySet& set, const LayerGrowth& growth, std::span<const double> asked);
+
+/// Returns columns that end at `front`, which holds a height along each ray, at most the `asked` one. A ray whose front is
+/// the asked one has the layers of a requested number as the growth law makes them. Other columns are stretched, and their
+/// numbers of layers chosen so that neighbours differ by one at most and rarely. Throws OptionError as asked_heights().
+LayerHeights columns_up_to(const RaySet& set, const LayerGrowth& growth, std::span<const double> asked,
+                           std::span<const double> front);
 
 }  // namespace lamina::layers

@@ -32,13 +32,8 @@ constexpr double max_spread = 2;
 /// with a growth of 1.2 and rays 5 degrees apart.
 constexpr double max_tallness = 1.5, max_tallness_in_fans = 1.3;
 constexpr double max_layers_beyond_isotropy = 20;
-/// Widths of a column, in heights of its last layer. Up to the first, numbers of layers do not change across the
-/// column: its last cell would be sheared by 45 degrees and more. From the second on they change by one.
-constexpr double no_change = 1, full_change = 1.5;
-/// Largest rise of the front per unit of distance along it.
-constexpr double max_front_slope = 0.25;
-/// Slope with which the front falls from a fan on both sides.
-constexpr double slope_beside_fans = 0.1;
+/// Slopes with which the front falls from a fan, and from where it reaches the least heights, on both sides.
+constexpr double slope_beside_fans = 0.1, slope_beside_least = 0.9 * max_front_slope;
 /// Largest ratio of the last spacings of neighbouring rays. The ratio of their heights is smaller still.
 constexpr double max_neighbour_ratio = 1.25;
 
@@ -83,52 +78,42 @@ private:
     }
 };
 
-/// Raises the front over fans until its edges there are nearly as long as those beside, and leads it down on both
-/// sides. A front whose edges were shorter over the fan would ask for a finer wall there, which would lower it further.
-void raise_over_fans(const RaySet& set, const RayDistances& rays, std::vector<double>& front) {
-    constexpr double edge_share = 0.9;             // of the distance to the neighbour beside the fan
-    std::vector<double> least(front.size(), 0.0);  // negative heights, so that lowering them raises the front
+/// Raises the front to the needed heights, and beside them so that it falls with this slope.
+void raise_to(std::vector<double> needed, double slope, const RaySet& set, const RayDistances& rays,
+              std::vector<double>& front) {
+    fill_fans(set, needed);
+    for (double& height : needed) height = -height;  // lowering them raises the front
+    lower_to_neighbours(set, needed, [&](std::size_t from, std::size_t to) {
+        return needed[from] + slope * rays.between(from, to, -needed[from]);
+    });
+    for (std::size_t i = 0; i < front.size(); ++i) front[i] = std::max(front[i], -needed[i]);
+}
+
+/// Returns the heights at which the front's edges over fans are nearly as long as those beside, and 0 elsewhere. A front
+/// whose edges were shorter over the fan would ask for a finer wall there, which would lower it further.
+std::vector<double> heights_over_fans(const RayDistances& rays, std::size_t count) {
+    constexpr double edge_share = 0.9;  // of the distance to the neighbour beside the fan
+    std::vector<double> needed(count);
     const auto raise = [&](std::size_t outside, std::size_t end, std::size_t inside) {
-        least[end] = -edge_share * rays.between(outside, end, 0) / rays.between(end, inside, 1);
+        needed[end] = edge_share * rays.between(outside, end, 0) / rays.between(end, inside, 1);
     };
-    for (std::size_t i = 0; i < front.size(); ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
         const std::size_t before = rays.previous(i), after = rays.next(i);
         const bool fan_before = rays.same_origin(before, i), fan_after = rays.same_origin(i, after);
         if (fan_after && !fan_before) raise(before, i, after);
         if (fan_before && !fan_after) raise(after, i, before);
     }
-    fill_fans(set, least);
-    lower_to_neighbours(set, least, [&](std::size_t from, std::size_t to) {
-        return least[from] + slope_beside_fans * rays.between(from, to, front[from]);
-    });
-    for (std::size_t i = 0; i < front.size(); ++i) front[i] = std::max(front[i], -least[i]);
+    return needed;
 }
 
-/// Raises the front to the least heights, and beside them so far that it need not be lowered to be smooth.
-void raise_to(std::span<const double> least, const RaySet& set, const RayDistances& rays, double fineness,
-              std::vector<double>& front) {
-    constexpr double slope = 0.9 * max_front_slope;
-    // A thick layer over a narrow base would end in edges far shorter than those over the fans beside it.
+/// Returns the least heights, or less over walls with short edges: a thick layer over a narrow base would end in edges far
+/// shorter than those over the fans beside it.
+std::vector<double> reachable_heights(std::span<const double> least, const RayDistances& rays, double fineness) {
     constexpr double most_widths = 60;
-    std::vector<double> raised(least.size());  // negative, so that lowering them raises the front
+    std::vector<double> needed(least.size());
     for (std::size_t i = 0; i < least.size(); ++i)
-        if (!rays.inside_fan(i)) raised[i] = -std::min(least[i], fineness * most_widths * rays.to_neighbours(i, 0));
-    fill_fans(set, raised);
-    lower_to_neighbours(set, raised, [&](std::size_t from, std::size_t to) {
-        return raised[from] + slope * rays.between(from, to, -raised[from]);
-    });
-    for (std::size_t i = 0; i < raised.size(); ++i) front[i] = std::max(front[i], -raised[i]);
-}
-
-/// Replaces each value by the median of those of the five rays round it.
-void take_medians(const RayDistances& rays, std::vector<double>& values) {
-    const std::vector<double> before = values;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        const std::size_t p = rays.previous(i), n = rays.next(i);
-        double five[] = {before[rays.previous(p)], before[p], before[i], before[n], before[rays.next(n)]};
-        std::nth_element(five, five + 2, five + 5);
-        values[i] = five[2];
-    }
+        if (!rays.inside_fan(i)) needed[i] = std::min(least[i], fineness * most_widths * rays.to_neighbours(i, 0));
+    return needed;
 }
 
 /// Rounds the kinks of the front but at fans.
@@ -176,25 +161,6 @@ double bisect(double low, double high, Below below) {
     return low;
 }
 
-/// Leads largest spacings over to narrow columns. A column has at most front / spacing layers, so that one in
-/// (1 + spacing / front) of them is one layer. Where the front rises, numbers would grow with it: there the number itself
-/// falls by one.
-void lead_over(const RaySet& set, const RayDistances& rays, std::span<const double> front,
-               std::vector<double>& spacings) {
-    lower_to_neighbours(set, spacings, [&](std::size_t from, std::size_t to) {
-        const double width = rays.between(from, to, std::min(front[from], front[to]));
-        const double widths = width / spacings[from];
-        const double upright = std::clamp((widths - no_change) / (full_change - no_change), 0.0, 1.0);
-        // Rows rise towards `to`. Where rays lean to that side, too, cells would be sheared by both.
-        const double lean = std::max(tangent_of_lean(set.lines[from], set.lines[to]), 0.0);
-        const double layers = std::min(upright, widths * max_row_slope(lean));
-        const double number = front[from] / spacings[from] - layers;
-        if (!(number > 1)) return HUGE_VAL;
-        return std::max(spacings[from] * (1 + layers * spacings[from] / std::max(front[from], front[to])),
-                        front[to] / number);
-    });
-}
-
 }  // namespace
 
 std::vector<double> heights_of_isotropy(const RaySet& set, std::span<const double> heights,
@@ -209,14 +175,9 @@ std::vector<double> heights_of_isotropy(const RaySet& set, std::span<const doubl
     for (std::size_t i = 0; i < front.size(); ++i)
         if (!rays.inside_fan(i)) front[i] = isotropic_height(rays, i, heights, opening(i));
     fill_fans(set, front);
-    if (uses("medians"))
-        for (int round = 0; round < 2; ++round) take_medians(rays, front);
-    if (uses("raise_over_fans")) raise_over_fans(set, rays, front);
-    if (!least.empty()) raise_to(least, set, rays, fineness, front);
+    if (uses("raise_over_fans")) raise_to(heights_over_fans(rays, front.size()), slope_beside_fans, set, rays, front);
+    if (!least.empty()) raise_to(reachable_heights(least, rays, fineness), slope_beside_least, set, rays, front);
     end_wakes();
-    lower_to_neighbours(set, front, [&](std::size_t from, std::size_t to) {
-        return front[from] + max_front_slope * rays.between(from, to, front[from]);
-    });
     if (uses("round_kinks")) round_kinks(rays, front);
     for (std::size_t i = 0; i < front.size(); ++i)
         front[i] = std::clamp(front[i], opening(i) * heights[1], opening(i) * heights.back());
@@ -224,8 +185,8 @@ std::vector<double> heights_of_isotropy(const RaySet& set, std::span<const doubl
     return front;
 }
 
-std::vector<double> largest_spacings(const RaySet& set, std::span<const double> front, double first_height,
-                                     double fineness) {
+std::vector<double> largest_spacings(const RaySet& set, std::span<const double> front,
+                                     std::span<const double> first_heights, double fineness) {
     const RayDistances rays(set);
     std::vector<double> spacings(set.lines.size());
     for (std::size_t i = 0; i < spacings.size(); ++i)
@@ -236,15 +197,8 @@ std::vector<double> largest_spacings(const RaySet& set, std::span<const double> 
         for (const std::size_t j : {rays.previous(i), rays.next(i)})
             if (rays.same_origin(i, j))
                 spacings[i] = std::min(spacings[i], max_tallness_in_fans * rays.between(i, j, front[i]));
-    const auto bound_layers = [&] {
-        for (std::size_t i = 0; i < spacings.size(); ++i)
-            spacings[i] = std::max(
-                {spacings[i], front[i] / (fineness * max_layers_beyond_isotropy), set.lines[i].opening * first_height});
-    };
-    // Without this bound one very narrow column would ask for low cells on hundreds of columns beside it.
-    bound_layers();
-    if (uses("spacings_lead")) lead_over(set, rays, front, spacings);
-    bound_layers();
+    for (std::size_t i = 0; i < spacings.size(); ++i)
+        spacings[i] = std::max({spacings[i], front[i] / (fineness * max_layers_beyond_isotropy), first_heights[i]});
     return spacings;
 }
 

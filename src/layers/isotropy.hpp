@@ -21,10 +21,9 @@ std::vector<double> heights_of_isotropy(const RaySet& set, std::span<const doubl
                                         std::span<const double> least = {}, double fineness = 1);
 
 /// Returns, for each ray, the largest height of a layer on the way to the front: some widths of a cell, but no less
-/// than the first height, which is on the wall. It varies so slowly that columns beside each other need not differ by
-/// more than one layer.
-std::vector<double> largest_spacings(const RaySet& set, std::span<const double> front, double first_height,
-                                     double fineness = 1);
+/// than the first height along it.
+std::vector<double> largest_spacings(const RaySet& set, std::span<const double> front,
+                                     std::span<const double> first_heights, double fineness = 1);
 
 /// Returns, for each ray, the ratio of geometric growth with which the last of `layers` spacings equals the distance of
 /// the rays there, from min_adaptive_ratio to max_adaptive_ratio. It varies along the wall so slowly that heights of

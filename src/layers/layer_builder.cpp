@@ -178,7 +178,7 @@ private:
         core::parallel_for(set_.lines.size(), 4096, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
                 const RayLine& line = set_.lines[i];
-                const std::span<const double> heights = rays_.fitted.of(i);
+                const std::span<const double> heights = rays_.heights.of(i);
                 for (std::uint32_t n = 1; n <= rays_.counts[i]; ++n) {
                     layer_.points[first_point_[i] + n - 1] = line.origin + (heights[n] * line.direction + line.shift);
                     layer_.layer_of_point[first_point_[i] + n - 1] = static_cast<std::uint16_t>(n);
@@ -218,28 +218,33 @@ private:
         return corner.layers == 0 ? origin_of_ray_[corner.ray] : VertexId(first_point_[corner.ray] + corner.layers - 1);
     }
 
+    /// Returns the height that a ray's points stay below because something is in its way. A ray that was lowered for its
+    /// neighbours' sake ends below the layer that it did not get.
+    double height_limit(std::size_t ray) const {
+        const HeightColumn& column = rays_.heights.column(ray);
+        if (rays_.counts[ray] < column.layers) return rays_.heights.of(ray)[rays_.counts[ray] + 1];
+        const bool has_lost_layers = rays_.growth.layers && column.stretch.factor != 1;
+        return column.cut || has_lost_layers ? rays_.front[ray] : HUGE_VAL;
+    }
+
     void describe_rays() {
         layer_.rays.resize(set_.elements());
         for (std::size_t e = 0; e < set_.elements(); ++e) {
             for (std::size_t i = set_.begin[e]; i < set_.begin[e + 1]; ++i) {
-                const std::span<const double> heights = rays_.fitted.of(i);
-                const HeightColumn& column = rays_.fitted.column(i);
+                const HeightColumn& column = rays_.heights.column(i);
                 const std::uint32_t count = rays_.counts[i];
-                // A ray that was lowered for its neighbours' sake ends below the layer that it did not get.
-                const double limit =
-                    count < column.layers ? std::min(rays_.limits[i], heights[count + 1]) : rays_.limits[i];
                 layer_.rays[e].push_back({.origin = origin_of_ray_[i],
                                           .direction = set_.lines[i].direction,
                                           .layers = count,
-                                          .requested = column.layers,
+                                          .requested = rays_.asked_layers[i],
                                           .growth = column.growth,
                                           .first_point = first_point_[i],
-                                          .height_limit = limit,
+                                          .height_limit = height_limit(i),
                                           .stretch = column.stretch,
-                                          .slant = column.slant,
+                                          .slant = set_.lines[i].slant,
                                           .max_spacing = column.max_spacing,
                                           .place = set_.lines[i].place,
-                                          .opening = column.opening,
+                                          .opening = set_.lines[i].opening,
                                           .taper = column.taper,
                                           .shift = set_.lines[i].shift,
                                           .corner_after = corner_after_ray_[i]});

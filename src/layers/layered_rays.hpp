@@ -29,18 +29,21 @@ struct LayeredRays {
     Point tip(std::size_t ray, double scale = 1) const { return point(ray, counts[ray], scale); }
 };
 
-/// Returns the rays with their fitted heights.
+/// Returns the rays with their columns.
 LayeredRays layered_rays(const Rays& rays);
 
-/// Replaces the rays by a set with more or fewer and finds heights and limits anew. Returns false, and changes nothing, where
-/// the set has as many.
+/// Finds anew what is asked for on each ray, what is in its way, and the front.
+void measure_room(Rays& rays);
+
+/// Replaces the rays by a set with fewer and finds their front anew. Returns false, and changes nothing, where the set has as
+/// many.
 bool replace_rays(RaySet changed, Rays& rays);
 
-/// Leads limits that have been lowered over to those beside. No ray loses its first layer for this: `before` holds the limits
-/// before they were lowered.
-void lead_limits_over(std::span<const double> before, Rays& rays);
+/// Returns the front: the largest heights along the rays, at most those asked for and the limits, that rise along it by no
+/// more than a slope. No ray loses its first layer for its neighbours.
+std::vector<double> front_heights(const Rays& rays);
 
-/// Fits the heights to the limits and counts the layers on each ray.
+/// Makes the columns up to the front, and lowers the numbers of layers where they would overlap.
 void fit_and_count_layers(Rays& rays);
 
 }  // namespace lamina::layers

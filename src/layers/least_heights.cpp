@@ -59,11 +59,6 @@ std::vector<double> least_heights(const RaySet& set) {
     return with_fans;
 }
 
-void open_heights(double opening, std::span<double> heights) {
-    if (opening == 1) return;
-    for (double& height : heights) height *= opening;
-}
-
 void limit_spacings(double max_spacing, std::span<double> heights) {
     if (std::isinf(max_spacing)) return;
     double height_below = heights[0], height = 0;

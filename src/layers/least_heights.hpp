@@ -18,9 +18,6 @@ void set_least_heights(std::span<const WallHeight> chain, std::span<RayVertex> o
 /// trailing edge keep their own.
 std::vector<double> least_heights(const RaySet& set);
 
-/// Multiplies the heights of a column by the opening of its ray.
-void open_heights(double opening, std::span<double> heights);
-
 /// Lowers the spacings of a column to at most max_spacing. heights[0] = 0 is the wall.
 void limit_spacings(double max_spacing, std::span<double> heights);
 

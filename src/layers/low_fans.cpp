@@ -34,9 +34,8 @@ struct Fan {
 class FanSearch {
 public:
     /// begin, end: the rays of the element.
-    FanSearch(const RaySet& set, const LayerHeights& heights, std::span<const double> limits, std::size_t begin,
-              std::size_t end)
-        : set_(set), heights_(heights), limits_(limits), begin_(begin), end_(end) {}
+    FanSearch(const Rays& rays, std::size_t begin, std::size_t end)
+        : set_(rays.set), asked_(rays.asked), front_(rays.front), begin_(begin), end_(end) {}
 
     /// Returns the fan of the vertex at which a ray is the first.
     Fan fan_from(std::size_t ray) const {
@@ -52,12 +51,12 @@ public:
         if (fan.columns < 2 || !is_cut_short(fan.first, last)) return fan.columns;
         double width = 0, widest_angle = 0;
         for (std::size_t i = fan.first; i < last; ++i) {
-            width += width_at_limit(i, i + 1);
+            width += width_at_front(i, i + 1);
             const double angle = core::angle_between(set_.lines[i].direction, set_.lines[i + 1].direction);
             widest_angle = std::max(widest_angle, std::abs(angle));
         }
-        const double beside = std::min(width_at_limit(fan.first > begin_ ? fan.first - 1 : end_ - 1, fan.first),
-                                       width_at_limit(last, last + 1 < end_ ? last + 1 : begin_));
+        const double beside = std::min(width_at_front(fan.first > begin_ ? fan.first - 1 : end_ - 1, fan.first),
+                                       width_at_front(last, last + 1 < end_ ? last + 1 : begin_));
         const double all = static_cast<double>(fan.columns), wanted = least_share_of_width * beside;
         if (!(width < all * wanted)) return fan.columns;
         constexpr double angle_rounding = 1e-9;
@@ -70,20 +69,19 @@ public:
 
 private:
     const RaySet& set_;
-    const LayerHeights& heights_;
-    std::span<const double> limits_;
+    std::span<const double> asked_, front_;
     std::size_t begin_, end_;
 
     bool is_cut_short(std::size_t first, std::size_t last) const {
         for (std::size_t i = first; i <= last; ++i)
-            if (limits_[i] < heights_.full_height(i)) return true;
+            if (front_[i] < asked_[i]) return true;
         return false;
     }
-    Point at_limit(std::size_t ray) const {
+    Point at_front(std::size_t ray) const {
         const RayLine& line = set_.lines[ray];
-        return line.origin + std::min(limits_[ray], heights_.full_height(ray)) * line.direction;
+        return line.origin + front_[ray] * line.direction;
     }
-    double width_at_limit(std::size_t a, std::size_t b) const { return distance(at_limit(a), at_limit(b)); }
+    double width_at_front(std::size_t a, std::size_t b) const { return distance(at_front(a), at_front(b)); }
 };
 
 /// Returns the k-th of the rays that stay where a fan of `columns` keeps `kept` columns, as evenly as can be. It is
@@ -96,14 +94,14 @@ std::size_t ray_that_stays(std::size_t k, std::size_t kept, std::size_t columns)
 
 }  // namespace
 
-RaySet leave_out_rays_of_low_fans(const RaySet& set, std::span<const char> jagged, const LayerHeights& heights,
-                                  std::span<const double> limits) {
+RaySet leave_out_rays_of_low_fans(const Rays& rays) {
+    const RaySet& set = rays.set;
     RaySet result;
     for (std::size_t e = 0; e < set.elements(); ++e) {
-        const FanSearch search(set, heights, limits, set.begin[e], set.begin[e + 1]);
+        const FanSearch search(rays, set.begin[e], set.begin[e + 1]);
         for (std::size_t i = set.begin[e]; i < set.begin[e + 1];) {
             const Fan fan = search.fan_from(i);
-            const std::size_t kept = jagged[e] ? search.columns_with_room(fan) : fan.columns;
+            const std::size_t kept = rays.jagged[e] ? search.columns_with_room(fan) : fan.columns;
             for (std::size_t k = 0; k <= kept; ++k)
                 result.lines.push_back(set.lines[i + ray_that_stays(k, kept, fan.columns)]);
             i += fan.columns + 1;

@@ -22,6 +22,15 @@ double tangent_of_lean(const RayLine& from, const RayLine& to) {
 
 double max_row_slope(double lean) { return std::max((1 - lean) / (1 + lean), 0.0); }
 
+void bound_slopes(const RaySet& set, std::vector<double>& heights) {
+    lower_to_neighbours(set, heights, [&](std::size_t from, std::size_t to) {
+        const auto end = [&](std::size_t ray) {
+            return set.lines[ray].origin + heights[from] * set.lines[ray].direction;
+        };
+        return heights[from] + max_front_slope * distance(end(from), end(to));
+    });
+}
+
 void fill_fans(const RaySet& set, std::vector<double>& values) {
     const RayNeighbours rays(set);
     const auto same_origin = [&](std::size_t a, std::size_t b) { return set.lines[a].origin == set.lines[b].origin; };

@@ -47,6 +47,15 @@ void lower_to_neighbours(const RaySet& set, std::vector<T>& values, Bound bound)
     }
 }
 
+/// Largest rise of the front per unit of distance along it. Two such slopes in a corner of 90 degrees leave 65 degrees to
+/// the outer region.
+inline constexpr double max_front_slope = 0.22;
+
+/// Lowers heights along rays until none rises above its neighbour's by more than a slope, per unit of distance between their
+/// points: they become the largest heights below those given with that slope, an inf-convolution.
+/// Source: L. C. Evans, Partial Differential Equations (2010), section 3.3.2 (the Hopf-Lax formula).
+void bound_slopes(const RaySet& set, std::vector<double>& heights);
+
 /// Gives the rays inside each fan values between those of its first and last ray.
 void fill_fans(const RaySet& set, std::vector<double>& values);
 

@@ -75,18 +75,16 @@ std::vector<ObtuseCell> obtuse_cells(const Layer& layer, const LayerCells& cells
 
 bool end_columns_below(std::span<const ObtuseCell> cells, Rays& rays) {
     const std::vector<std::size_t> next = rays.set.following();
-    const std::vector<double> before = rays.limits;
     bool changed = false;
     for (const ObtuseCell& cell : cells) {
         if (cell.layer < 2) continue;
         for (const std::size_t ray : {std::size_t{cell.column}, next[cell.column]}) {
             if (rays.counts[ray] < cell.layer) continue;
-            rays.limits[ray] = std::min(rays.limits[ray], rays.fitted.of(ray)[cell.layer - 1u]);
+            rays.limits[ray] = std::min(rays.limits[ray], rays.heights.of(ray)[cell.layer - 1u]);
             changed = true;
         }
     }
     if (!changed) return false;
-    lead_limits_over(before, rays);
     fit_and_count_layers(rays);
     return true;
 }

@@ -8,7 +8,6 @@
 
 #include "core/box_tree.hpp"
 #include "layers/layered_rays.hpp"
-#include "layers/truncation.hpp"
 
 namespace lamina {
 
@@ -40,11 +39,10 @@ std::vector<std::size_t> shorten_rays(std::span<const Circle> places, Rays& rays
     }
     if (shortened.empty()) return ends;
     for (const std::size_t i : shortened)
-        rays.limits[i] = std::min(rays.limits[i], kept_share * rays.fitted.of(i)[rays.counts[i]]);
-    smooth_limits(rays.set, rays.heights, rays.limits);
+        rays.limits[i] = std::min(rays.limits[i], kept_share * rays.heights.of(i)[rays.counts[i]]);
     // A wake without layers on either side would be no part of the layer.
     for (std::size_t i = 0; i < rays.limits.size(); ++i)
-        if (rays.set.lines[i].place == RayPlace::wake) rays.limits[i] = std::max(rays.limits[i], rays.fitted.of(i)[1]);
+        if (rays.set.lines[i].place == RayPlace::wake) rays.limits[i] = std::max(rays.limits[i], rays.heights.of(i)[1]);
     fit_and_count_layers(rays);
     return ends;
 }

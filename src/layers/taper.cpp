@@ -24,7 +24,6 @@
 #include <vector>
 
 #include "core/predicates.hpp"
-#include "layers/heights.hpp"
 #include "layers/layered_rays.hpp"
 #include "layers/mechanisms.hpp"
 #include "layers/neighbours.hpp"
@@ -151,12 +150,15 @@ std::vector<double> tapers(const LayeredRays& rays, bool quads) {
 /// Returns heights of which each column is tapered up to its number of layers.
 LayerHeights tapered_heights(const LayerHeights& heights, std::span<const std::uint32_t> counts,
                              std::span<const double> tapers) {
-    return changed_columns(
-        heights, tapers.size(), [&](std::size_t ray) { return tapers[ray] != 1; },
-        [&](std::size_t ray, HeightColumn& column, std::span<double> own) {
-            column.taper = tapers[ray];
-            taper_heights(column.taper, own.first(counts[ray] + std::size_t{1}));
-        });
+    std::vector<double> table = heights.table();
+    std::vector<HeightColumn> columns;
+    columns.reserve(tapers.size());
+    for (std::size_t ray = 0; ray < tapers.size(); ++ray) {
+        HeightColumn& column = columns.emplace_back(heights.column(ray));
+        column.taper = tapers[ray];
+        taper_heights(column.taper, std::span(table).subspan(column.first, counts[ray] + std::size_t{1}));
+    }
+    return LayerHeights(std::move(table), std::move(columns));
 }
 
 /// Returns whether a cell between two rays is crossed.
@@ -206,10 +208,10 @@ void taper_heights(double taper, std::span<double> heights) {
 
 void taper_columns(Rays& rays) {
     if (rays.growth.layers || !uses("taper")) return;
-    const LayerHeights untapered = rays.fitted;
+    const LayerHeights untapered = rays.heights;
     std::vector<double> wanted = tapers(layered_rays(rays), rays.topology == LayerTopology::quads);
     do {
-        rays.fitted = tapered_heights(untapered, rays.counts, wanted);
+        rays.heights = tapered_heights(untapered, rays.counts, wanted);
     } while (take_back_in_crossed_columns(layered_rays(rays), wanted));
 }
 

@@ -17,29 +17,11 @@
 #include "core/box_tree.hpp"
 #include "core/parallel.hpp"
 #include "core/segments.hpp"
-#include "layers/mechanisms.hpp"
-#include "layers/neighbours.hpp"
 
 namespace lamina::layers {
 
 namespace {
 
-/// A ray may go up to this share of the height at which it crosses another ray, so that neighbours keep more than half
-/// of their distance.
-constexpr double ray_fraction = 0.45;
-/// First layers may go up to this share, so that walls in clefts are not bare. Neighbours keep a quarter of their
-/// distance.
-constexpr double first_layer_fraction = 0.75;
-/// Largest rise of the limit per unit of distance between neighbouring rays. Two such slopes in a corner of 90 degrees
-/// leave 60 degrees to the outer region.
-constexpr double max_limit_slope = 0.25;
-/// Largest rise of the end of a layer per unit of distance between neighbouring rays, where rays are cut short. Rays
-/// from a rounded lip are parallel at the height of the layer, while the wall below turns away from them and heights
-/// along them grow with their slant. Rows would lie across them at 45 degrees (docs/decisions/0057).
-constexpr double max_end_slope = 0.6;
-/// Largest tangent by which the row between the ends of two rays is off a right angle with them, where rays are cut
-/// short: 53 degrees. Where rays lean, a row that rises as above can be far steeper than that.
-constexpr double max_end_tangent = 1.35;
 /// Up to this number of rays, one scale does for all heights.
 constexpr std::size_t max_single_scale_rays = 600;
 /// Distance of the rays of a sample, as a share of the largest height of the scale.
@@ -113,9 +95,9 @@ LineCrossing cross_lines(Point p, Point d, Point q, Point e) {
 class ScaleSearch {
 public:
     /// known: the limits found on lower scales.
-    ScaleSearch(const RaySet& set, const LayerHeights& heights, std::span<const double> known, const RaySample& sample,
-                double low, double high)
-        : set_(set), heights_(heights), known_(known), sample_(sample), low_(low), high_(high) {
+    ScaleSearch(const RaySet& set, std::span<const double> asked, std::span<const double> known,
+                const RaySample& sample, double low, double high)
+        : set_(set), asked_(asked), known_(known), sample_(sample), low_(low), high_(high) {
         ray_boxes_.reserve(sample.rays.size());
         for (std::size_t i : sample.rays) {
             const double height = std::min(high, reach(i));
@@ -143,7 +125,7 @@ public:
 
 private:
     const RaySet& set_;
-    const LayerHeights& heights_;
+    std::span<const double> asked_;
     std::span<const double> known_;
     const RaySample& sample_;
     double low_, high_;
@@ -151,9 +133,7 @@ private:
     core::BoxTree ray_tree_{{}}, wall_tree_{{}};
 
     /// Returns the height up to which a ray is in the way of others; beyond its end it is not.
-    double reach(std::size_t ray) const {
-        return std::min(known_[ray] / ray_fraction, heights_.full_height(ray) / wall_fraction);
-    }
+    double reach(std::size_t ray) const { return std::min(known_[ray] / ray_fraction, asked_[ray] / wall_fraction); }
 
     double limit_by_rays(std::size_t k) const {
         const RayLine& ray = set_.lines[sample_.rays[k]];
@@ -221,58 +201,21 @@ void lower_to_sample(const RaySet& set, const RaySample& sample, std::span<const
     }
 }
 
-/// Raises limits that are a little too low for a first layer up to its height.
-void allow_first_layers(const LayerHeights& heights, std::vector<double>& limits) {
-    for (std::size_t i = 0; i < limits.size(); ++i)
-        if (const std::span<const double> column = heights.of(i); column.size() > 1)
-            limits[i] = std::max(limits[i], std::min(column[1], first_layer_fraction / ray_fraction * limits[i]));
-}
-
-/// Returns the height at which a ray may end beside one that ends at `height`, so that the row between the two is off a
-/// right angle with them by max_end_tangent.
-double height_of_steepest_row(const RayLine& ray, double height, const RayLine& beside) {
-    const Point along = unit(ray.direction + beside.direction),
-                row = at_height(beside, height) - at_height(ray, height);
-    return height + (max_end_tangent * std::abs(cross(row, along)) - dot(row, along)) / dot(beside.direction, along);
-}
-
 }  // namespace
 
-void smooth_limits(const RaySet& set, const LayerHeights& heights, std::vector<double>& limits) {
-    const auto apart = [&](std::size_t from, std::size_t to, double height) {
-        return distance(at_height(set.lines[from], height), at_height(set.lines[to], height));
-    };
-    lower_to_neighbours(set, limits, [&](std::size_t from, std::size_t to) {
-        const double height = std::min(limits[from], heights.full_height(from));
-        return limits[from] + max_limit_slope * apart(from, to, height);
-    });
-    if (!uses("end_slope")) return;
-    std::vector<double> ends(limits.size());
-    for (std::size_t i = 0; i < ends.size(); ++i) ends[i] = std::min(limits[i], heights.full_height(i));
-    lower_to_neighbours(set, ends, [&](std::size_t from, std::size_t to) {
-        const double steepest = height_of_steepest_row(set.lines[from], ends[from], set.lines[to]);
-        return std::clamp(steepest, ends[from], ends[from] + max_end_slope * apart(from, to, ends[from]));
-    });
-    for (std::size_t i = 0; i < ends.size(); ++i)
-        if (ends[i] < heights.full_height(i)) limits[i] = ends[i];
-}
-
-std::vector<double> height_limits(const RaySet& set, const LayerHeights& heights) {
+std::vector<double> height_limits(const RaySet& set, std::span<const double> asked) {
     std::vector<double> limits(set.lines.size(), HUGE_VAL);
     if (is_one_convex_body(set)) return limits;
-    const double reach = heights.max_height() / wall_fraction;
+    const double reach = *std::max_element(asked.begin(), asked.end()) / wall_fraction;
     double low = 0;
     double high = set.lines.size() <= max_single_scale_rays ? reach : std::min(reach, 4 * mean_spacing(set));
     for (;;) {
         const RaySample sample = sample_rays(set, high, low > 0 ? sample_spacing * high : 0.0);
-        lower_to_sample(set, sample, ScaleSearch(set, heights, limits, sample, low, high).limits(), limits);
+        lower_to_sample(set, sample, ScaleSearch(set, asked, limits, sample, low, high).limits(), limits);
         if (high >= reach) break;
         low = high;
         high = std::min(2 * high, reach);
     }
-    if (std::all_of(limits.begin(), limits.end(), [](double limit) { return limit == HUGE_VAL; })) return limits;
-    smooth_limits(set, heights, limits);
-    if (uses("allow_first")) allow_first_layers(heights, limits);
     return limits;
 }
 

@@ -76,16 +76,16 @@ SizeRequests request_sizes(SizingOptions options, const SizedBodies& bodies, con
     return requests;
 }
 
-/// Counts the rays whose limits are lower than they were at first, and finds the one that lost most of its height.
+/// Counts the rays whose front is lower than it was at first, and finds the one that lost most of its height.
 void count_thinned(RayPlan& plan) {
     plan.thinned_rays = 0;
     double least_share = 1;
-    for (std::size_t i = 0; i < plan.first_limits.size(); ++i) {
-        const double before = std::min(plan.first_limits[i], plan.rays.heights.full_height(i));
-        if (plan.rays.limits[i] >= before) continue;
+    for (std::size_t i = 0; i < plan.first_front.size(); ++i) {
+        const double before = plan.first_front[i];
+        if (plan.rays.front[i] >= before) continue;
         ++plan.thinned_rays;
-        if (plan.rays.limits[i] >= least_share * before) continue;
-        least_share = plan.rays.limits[i] / before;
+        if (plan.rays.front[i] >= least_share * before) continue;
+        least_share = plan.rays.front[i] / before;
         plan.thinned_at = plan.rays.set.lines[i].origin;
     }
 }
@@ -99,7 +99,7 @@ void renew_requests(const CaseOptions& options, RayPlan& plan) {
 /// Returns whether all rays have all layers that were requested.
 bool all_layers_fit(const Rays& rays) {
     for (std::size_t i = 0; i < rays.counts.size(); ++i)
-        if (rays.counts[i] < rays.heights.column(i).layers) return false;
+        if (rays.counts[i] < rays.asked_layers[i]) return false;
     return true;
 }
 
@@ -112,14 +112,14 @@ RayPlan plan_rays(Geometry geometry, const ReferenceConditions& conditions, cons
     if (options.layer.enabled) require_room_for_layers(geometry, fronts(rays), far_field, options.layer, growth);
     SizeRequests requests =
         request_sizes(options.sizing, sized_bodies(geometry, conditions), rays, wakes, far_field.box());
-    std::vector<double> limits = rays.limits;
+    std::vector<double> front = rays.front;
     return {.geometry = std::move(geometry),
             .conditions = conditions,
             .far_field = std::move(far_field),
             .rays = std::move(rays),
             .requests = std::move(requests),
             .wakes = std::move(wakes),
-            .first_limits = std::move(limits)};
+            .first_front = std::move(front)};
 }
 
 void refine_walls_below_borders(const Geometry& given, const CaseOptions& options, SpacingLimits limits,

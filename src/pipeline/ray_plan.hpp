@@ -21,7 +21,7 @@ struct RayPlan {
     Rays rays;
     SizeRequests requests;
     std::vector<ElementWake> wakes{};       ///< of the flow, one per element or none
-    std::vector<double> first_limits{};     ///< of the rays, before any was shortened
+    std::vector<double> first_front{};      ///< of the rays, before any was shortened
     std::size_t thinned_rays = 0;           ///< MeshResult::thinned_rays
     Point thinned_at{};                     ///< MeshResult::thinned_at
     std::vector<SizeSource> short_edges{};  ///< further sizes for the edges of borders

@@ -108,7 +108,7 @@ TEST(LayerDecomposition, LayersTruncatedToNothing) {
     LayerOptions options = layers(20);
     options.first_height = 1e-2;
     using namespace shapes;
-    expect_same_at_every_depth("comb", test::make_layer(geometry({refined(comb(4, 1e-5), 20)}), options),
+    expect_same_at_every_depth("comb", test::make_layer(geometry({refined(comb(24, 1e-5), 100)}), options),
                                Balance::not_demanded);
 }
 

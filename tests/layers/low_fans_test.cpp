@@ -36,9 +36,12 @@ RaySet plate_with_fan(std::size_t columns) {
 /// Returns the rays that are left of the plate's where all may go up to a limit. All layers are 1 high.
 std::vector<RayLine> rays_left(const RaySet& set, double limit, bool jagged = true) {
     const std::size_t n = set.lines.size();
-    const LayerHeights heights({0, 1}, std::vector<HeightColumn>(n, HeightColumn{0, 1, 1.2}));
-    const RaySet left =
-        layers::leave_out_rays_of_low_fans(set, std::vector<char>{jagged}, heights, std::vector<double>(n, limit));
+    Rays rays;
+    rays.set = set;
+    rays.jagged = {jagged};
+    rays.asked.assign(n, 1);
+    rays.front.assign(n, std::min(limit, 1.0));
+    const RaySet left = layers::leave_out_rays_of_low_fans(rays);
     EXPECT_EQ(left.begin, (std::vector<std::size_t>{0, left.lines.size()}));
     return left.lines;
 }

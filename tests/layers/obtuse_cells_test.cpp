@@ -82,7 +82,7 @@ TEST(ObtuseCells, ColumnsEndBelowThem) {
             Rays rays = grow_rays(geometry, options, test::growth_of(options));
             const std::vector<std::uint32_t> counts = rays.counts;
             const std::vector<double> limits = rays.limits;
-            const LayerHeights heights = rays.fitted;
+            const LayerHeights heights = rays.heights;
             const Layer before = close_border(rays);
             const std::vector<ObtuseCell> obtuse =
                 obtuse_cells(before, fill_layer(before, LayerTopology::layered), max_angle_deg);
@@ -94,7 +94,7 @@ TEST(ObtuseCells, ColumnsEndBelowThem) {
             for (const ObtuseCell& cell : above)
                 for (const std::size_t ray : {std::size_t{cell.column}, next[cell.column]}) {
                     if (counts[ray] < cell.layer) continue;
-                    const double end = rays.fitted.of(ray)[rays.counts[ray]];
+                    const double end = rays.heights.of(ray)[rays.counts[ray]];
                     EXPECT_LE(end, heights.of(ray)[cell.layer - 1u] * (1 + 1e-12)) << "it ends below the cell";
                 }
             for (std::size_t i = 0; i < counts.size(); ++i) {

@@ -162,27 +162,14 @@ TEST(Rays, LeanNoFurtherThanHeightsAboveBothEdgesAllow) {
     EXPECT_GT(tilted, 20u);
 }
 
-/// A small body lies near one vertex of a wall of few vertices. With one layer more per vertex, the layer would never
-/// recover.
-TEST(Rays, AreInsertedWhereNumbersOfLayersChangeFasterThanTheWallHasVertices) {
+/// A small body lies near one vertex of a wall of few vertices. Numbers of layers change by one from vertex to vertex, and
+/// most layers are kept.
+TEST(Rays, OfCoarseWallsBesideASmallBodyKeepMostLayers) {
     const Outline plate = shapes::polygon({{0, -1}, {4, -1}, {4, 0}, {3, 0}, {2, 0}, {1, 0}, {0, 0}});
     const Outline small = shapes::moved(shapes::circle(0.05, 40), 0, 1, {2, 0.06});
-    LayerOptions options = layers_as_high_as(0.1);
-    const Layer layer = test::checked_layer(shapes::geometry({plate, small}), options);
+    const Layer layer = test::checked_layer(shapes::geometry({plate, small}), layers_as_high_as(0.1));
     const LayerCoverage& all = layer.coverage[0].all;
     EXPECT_GT(double(all.made_cells), 0.75 * double(all.requested_cells));
-    // Distances of full rays, and of rays cut short, from the small body.
-    double nearest_full = HUGE_VAL, farthest_cut = 0;
-    for (const Ray& ray : layer.rays[0]) {
-        const Point origin = layer.points[ray.origin.index()];
-        if (origin.y < 0 || ray.direction.y < 0.9) continue;
-        const double off = std::abs(origin.x - 2);
-        if (ray.layers == ray.requested) nearest_full = std::min(nearest_full, off);
-        if (ray.layers < ray.requested) farthest_cut = std::max(farthest_cut, off);
-    }
-    EXPECT_LT(nearest_full, 0.8);
-    EXPECT_LT(farthest_cut, 1);
-    EXPECT_LT(layer.walls[0].size(), 100u);
 }
 
 /// Returns the number of points that divide the border of an element between the tips of its rays.
@@ -232,7 +219,8 @@ TEST(Rays, LeaveBluntCornersOfSmoothOutlinesInFans) {
     EXPECT_GT(origins(layers::OutlineKind::given), hexagon.size());
 }
 
-/// Rows over both walls of a cove corner keep their heights above the walls, up to the layer's end.
+/// Rows over both walls of a cove corner keep their heights above the walls. Heights along rays are larger the more these
+/// lean, and the front rises slowly, so that it rounds the corner: the upper half of the layers is up to a twentieth lower.
 TEST(Rays, OutOfCoveCornersKeepTheHeightsAboveBothWalls) {
     const Outline cove = shapes::refined(shapes::polygon({{0, 0}, {4, 0}, {4, 4}, {2, 4}, {2, 2}, {0, 2}}), 40);
     const LayerOptions options = layers_as_high_as(0.1);
@@ -243,8 +231,11 @@ TEST(Rays, OutOfCoveCornersKeepTheHeightsAboveBothWalls) {
         EXPECT_EQ(ray.layers, ray.requested) << origin.x << ' ' << origin.y;
         if (!(origin.x <= 2 && origin.x > 1 && origin.y == 2)) continue;  // the wall left of the corner
         slanted += ray.slant > 1.001;
-        for (std::uint32_t n = 1; n <= ray.layers; ++n)
-            EXPECT_NEAR((layer.points[ray.vertex(n).index()].y - 2) / layer_height(layer.growth, n), 1, 1e-2);
+        for (std::uint32_t n = 1; n <= ray.layers; ++n) {
+            const double share = (layer.points[ray.vertex(n).index()].y - 2) / layer_height(layer.growth, n);
+            EXPECT_LT(share, 1.01);
+            EXPECT_GT(share, n <= ray.layers / 2 ? 0.99 : 0.95);
+        }
     }
     EXPECT_GT(slanted, 2u);
 }
@@ -281,8 +272,7 @@ Point shift_of_leaning_ray(double turning_deg, bool jagged = false) {
     RaySet set;
     set.lines = {{{1, 0}, {0, 1}}, {{0, 0}, core::rotated({0, 1}, core::radians(-30))}, {edge, {0, 1}}};
     set.begin = {0, 3};
-    const LayerHeights heights({0, first_height}, std::vector<HeightColumn>(3, {.layers = 1}));
-    layers::shift_rays_of_corners(std::vector<char>{jagged}, heights, set);
+    layers::shift_rays_of_corners(std::vector<char>{jagged}, LayerGrowth{.first_height = first_height}, set);
     return set.lines[1].shift;
 }
 

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include <lamina/layers.hpp>
@@ -64,13 +65,24 @@ TEST(Taper, LeavesColumnsWithoutRoomAlone) {
     }
 }
 
+/// Returns so many columns with these heights.
+LayerHeights alike(const std::vector<double>& heights, std::size_t columns) {
+    std::vector<double> table;
+    std::vector<HeightColumn> result;
+    for (std::size_t i = 0; i < columns; ++i) {
+        result.push_back({.first = table.size(), .layers = static_cast<std::uint32_t>(heights.size() - 1)});
+        table.insert(table.end(), heights.begin(), heights.end());
+    }
+    return LayerHeights(std::move(table), std::move(result));
+}
+
 /// Returns rays in a row below a wall, so far apart, with columns of 60 layers whose last ones are 0.001 high. The last
 /// ray and the first one are neighbours as on every element, though all cells between them are crossed.
 Rays columns_apart(const std::vector<double>& widths) {
     Rays rays;
     rays.set = test::rays_in_a_row(widths);
     const std::vector<double> table = heights_with(1e-3, 60);
-    rays.fitted = LayerHeights(table, std::vector<HeightColumn>(widths.size(), {.layers = 60}));
+    rays.heights = alike(table, widths.size());
     rays.counts.assign(widths.size(), 60);
     return rays;
 }
@@ -81,19 +93,19 @@ std::vector<double> widths_from_wide_to_wide() { return test::widths_with_narrow
 TEST(Taper, LastLayersBecomeAsHighAsColumnsAreWide) {
     const std::vector<double> widths = widths_from_wide_to_wide();
     Rays rays = columns_apart(widths);
-    const LayerHeights before = rays.fitted;
+    const LayerHeights before = rays.heights;
     layers::taper_columns(rays);
     for (std::size_t i = 2; i + 2 < widths.size(); ++i) {
         SCOPED_TRACE(testing::Message() << "column " << i << ", " << widths[i] << " wide");
-        const std::vector<double> heights(rays.fitted.of(i).begin(), rays.fitted.of(i).end());
-        EXPECT_EQ(heights.back(), before.full_height(i));
+        const std::vector<double> heights(rays.heights.of(i).begin(), rays.heights.of(i).end());
+        EXPECT_EQ(heights.back(), before.of(i).back());
         EXPECT_TRUE(std::is_sorted(heights.begin(), heights.end()));
         const double width = std::sqrt(widths[i - 1] * widths[i]);
         EXPECT_LT(last_spacing(heights), 1.3 * width) << "half of the cell has 1.5 times the area beyond";
         EXPECT_GT(last_spacing(heights), std::min(1e-3, 0.52 * width)) << "0.6 times";
         // Rows rise by three tenths of the width of a column at most.
         for (std::size_t n = 0; n < heights.size(); ++n)
-            EXPECT_LE(std::abs(heights[n] - rays.fitted.of(i - 1)[n]), 0.3001 * widths[i - 1]) << n;
+            EXPECT_LE(std::abs(heights[n] - rays.heights.of(i - 1)[n]), 0.3001 * widths[i - 1]) << n;
     }
 }
 
@@ -101,8 +113,8 @@ TEST(Taper, LowLayersOfWideColumnsBecomeHigher) {
     Rays rays = columns_apart(std::vector<double>(100, 2e-3)), wider = columns_apart(std::vector<double>(100, 4e-3));
     layers::taper_columns(rays);
     layers::taper_columns(wider);
-    EXPECT_NEAR(rays.fitted.column(50).taper, 1.08, 1e-9) << "0.54 times as high as wide";
-    EXPECT_EQ(wider.fitted.column(50).taper, layers::most_taper);
+    EXPECT_NEAR(rays.heights.column(50).taper, 1.08, 1e-9) << "0.54 times as high as wide";
+    EXPECT_EQ(wider.heights.column(50).taper, layers::most_taper);
 }
 
 /// Cells that lean are smaller than their edges say.
@@ -118,9 +130,9 @@ TEST(Taper, CellsOfLeaningColumnsBecomeAsLargeAsUprightOnes) {
     layers::taper_columns(narrow);
     layers::taper_columns(wide);
     layers::taper_columns(of_quads);
-    EXPECT_NEAR(narrow.fitted.column(200).taper, 0.91 * 0.3 * std::sqrt(2.0), 1e-9);
-    EXPECT_NEAR(wide.fitted.column(200).taper, 0.54 * 2 * std::sqrt(2.0), 1e-9);
-    EXPECT_NEAR(of_quads.fitted.column(200).taper, 0.91 * 0.3, 1e-9)
+    EXPECT_NEAR(narrow.heights.column(200).taper, 0.91 * 0.3 * std::sqrt(2.0), 1e-9);
+    EXPECT_NEAR(wide.heights.column(200).taper, 0.54 * 2 * std::sqrt(2.0), 1e-9);
+    EXPECT_NEAR(of_quads.heights.column(200).taper, 0.91 * 0.3, 1e-9)
         << "faces between quadrilaterals would be more skewed";
 }
 
@@ -130,8 +142,8 @@ TEST(Taper, WideColumnsMakeNoNarrowOnesTooHigh) {
     widths.insert(widths.end(), 340, 3e-3);
     Rays rays = columns_apart(widths);
     layers::taper_columns(rays);
-    EXPECT_GT(rays.fitted.column(90).taper, 1.5);
-    EXPECT_LE(rays.fitted.column(58).taper * 1e-3, 1.2 * 4e-4 + 1e-12);
+    EXPECT_GT(rays.heights.column(90).taper, 1.5);
+    EXPECT_LE(rays.heights.column(58).taper * 1e-3, 1.2 * 4e-4 + 1e-12);
 }
 
 /// Where numbers of layers change, fronts rise by up to a quarter of the width.
@@ -142,9 +154,9 @@ TEST(Taper, LastLayersAreHigherWhereNumbersOfLayersChange) {
     // Beside the change the front's edges are level on one side and rise by a layer on the other, where the cell is as large
     // as a square on the edge when it is edge * edge / width high.
     const double rising = (1.5e-3 * 1.5e-3 + 1e-6) / 1.5e-3, square = 1e3 * std::sqrt(1.5e-3 * rising);
-    EXPECT_NEAR(rays.fitted.column(199).taper, 0.86 * square, 1e-9);
-    EXPECT_NEAR(rays.fitted.column(200).taper, 0.86 * square, 1e-9);
-    EXPECT_EQ(rays.fitted.column(50).taper, 1);
+    EXPECT_NEAR(rays.heights.column(199).taper, 0.86 * square, 1e-9);
+    EXPECT_NEAR(rays.heights.column(200).taper, 0.86 * square, 1e-9);
+    EXPECT_EQ(rays.heights.column(50).taper, 1);
     // Not where narrow columns beside would have cells far higher than wide.
     std::vector<double> widths(400, 1.5e-3);
     for (std::size_t i = 203; i < 400; ++i) widths[i] = 4e-4;
@@ -152,7 +164,7 @@ TEST(Taper, LastLayersAreHigherWhereNumbersOfLayersChange) {
     narrow.counts.assign(400, 60);
     for (std::size_t i = 200; i < 400; ++i) narrow.counts[i] = 59;
     layers::taper_columns(narrow);
-    EXPECT_LT(narrow.fitted.column(200).taper, 1);
+    EXPECT_LT(narrow.heights.column(200).taper, 1);
 }
 
 /// The last layer of two cannot become lower without the one below becoming as much higher.
@@ -161,10 +173,10 @@ TEST(Taper, ColumnsOfFewLayersStay) {
         Rays rays = columns_apart(std::vector<double>(50, 3e-4));
         rays.counts.assign(50, layers);
         const std::vector<double> table = heights_with(1e-5, 60);
-        rays.fitted = LayerHeights(table, std::vector<HeightColumn>(50, {.layers = 60}));
+        rays.heights = alike(table, 50);
         for (RayLine& line : rays.set.lines) line.origin.x *= 1e-5 / 3e-4 * 0.5;
         layers::taper_columns(rays);
-        EXPECT_EQ(rays.fitted.column(25).taper != 1, layers == 60) << layers << " layers";
+        EXPECT_EQ(rays.heights.column(25).taper != 1, layers == 60) << layers << " layers";
     }
 }
 
@@ -173,7 +185,7 @@ TEST(Taper, LayersNeverTripleFromRowToRow) {
     for (const double width : {1e-3, 3e-4, 1e-4, 1e-5}) {
         Rays rays = columns_apart(std::vector<double>(100, width));
         layers::taper_columns(rays);
-        const std::span<const double> heights = rays.fitted.of(50);
+        const std::span<const double> heights = rays.heights.of(50);
         for (std::size_t n = 31; n + 1 < heights.size(); ++n)
             EXPECT_LT(heights[n] - heights[n - 1], 3 * (heights[n + 1] - heights[n])) << width << ", layer " << n;
     }
@@ -181,10 +193,10 @@ TEST(Taper, LayersNeverTripleFromRowToRow) {
 
 TEST(Taper, RequestedNumbersOfLayersKeepTheirHeights) {
     Rays rays = columns_apart(widths_from_wide_to_wide());
-    const std::vector<double> table = rays.fitted.table();
+    const std::vector<double> table = rays.heights.table();
     rays.growth.layers = 60;
     layers::taper_columns(rays);
-    EXPECT_EQ(rays.fitted.table(), table);
+    EXPECT_EQ(rays.heights.table(), table);
 }
 
 /// Returns whether the cells between two neighbouring rays are positive quadrilaterals, and the triangle at their step,
@@ -234,13 +246,13 @@ SoundColumns taper_random_columns(LayerTopology topology, double steepest) {
             rays.set.lines[i].direction = unit(Point{lean, -1});
             if (i > 0) rays.counts[i] = std::clamp(rays.counts[i - 1] + std::uint32_t(real(0, 3)) - 1, 40u, 60u);
         }
-        rays.fitted = LayerHeights(table, columns);
-        const LayerHeights before = rays.fitted;
+        rays.heights = LayerHeights(table, columns);
+        const LayerHeights before = rays.heights;
         layers::taper_columns(rays);
         for (std::size_t i = 1; i + 2 < widths.size(); ++i) {
             if (!are_sound({rays.set, before, rays.counts}, i)) continue;
             EXPECT_TRUE(are_sound(layers::layered_rays(rays), i)) << "round " << round << ", column " << i;
-            const bool is_tapered = rays.fitted.column(i).taper != 1 || rays.fitted.column(i + 1).taper != 1;
+            const bool is_tapered = rays.heights.column(i).taper != 1 || rays.heights.column(i + 1).taper != 1;
             (is_tapered ? sound.tapered : sound.left) += 1;
         }
     }
@@ -271,11 +283,12 @@ TEST(Taper, FacesBesideTurningRowsStayLong) {
     Rays of_triangles = turning;
     of_triangles.topology = LayerTopology::layered;
     for (Rays* each : {&rays, &turning, &of_triangles}) layers::taper_columns(*each);
-    EXPECT_NEAR(rays.fitted.column(200).taper, 0.91 * 0.3, 1e-9);
-    EXPECT_NEAR(turning.fitted.column(100).taper, 0.91 * 0.3 * std::sqrt(5.0), 1e-9) << "edges of the front are longer";
-    EXPECT_NEAR(turning.fitted.column(200).taper, 0.6 / 0.8, 1e-9) << "a skewness of 0.6, made 0.8";
+    EXPECT_NEAR(rays.heights.column(200).taper, 0.91 * 0.3, 1e-9);
+    EXPECT_NEAR(turning.heights.column(100).taper, 0.91 * 0.3 * std::sqrt(5.0), 1e-9)
+        << "edges of the front are longer";
+    EXPECT_NEAR(turning.heights.column(200).taper, 0.6 / 0.8, 1e-9) << "a skewness of 0.6, made 0.8";
     // Cells that lean by so much are a fifth as large as squares on their edges.
-    for (const std::size_t i : {100, 200}) EXPECT_EQ(of_triangles.fitted.column(i).taper, 1) << i;
+    for (const std::size_t i : {100, 200}) EXPECT_EQ(of_triangles.heights.column(i).taper, 1) << i;
 }
 
 }  // namespace

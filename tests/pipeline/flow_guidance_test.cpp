@@ -56,7 +56,7 @@ TEST(FlowGuidance, LayersAreThickerThanBoundaryLayersAtAnyReynoldsNumber) {
             const Rays rays = grow_rays(geometry, options.layer, growth);
             for (std::size_t i = 0; i < rays.set.lines.size(); ++i) {
                 const Point origin = rays.set.lines[i].origin;
-                const double height = rays.fitted.of(i)[rays.counts[i]];
+                const double height = rays.heights.of(i)[rays.counts[i]];
                 // Both sides meet at the trailing edge.
                 if (origin.x < 0.999) {
                     EXPECT_GE(height, std::min(1.3 * thickness_near(flow.elements[0], origin), 0.079)) << origin.x;

@@ -56,7 +56,7 @@ TEST(Topology, SharpAndBluntSections) {
 
 TEST(Topology, SlotsAndCoves) {
     expect_equal_outside_the_layer({naca("0012"), shapes::moved(naca("0012", 80), -0.4, 0.3, {0.98, -0.02})});
-    expect_equal_outside_the_layer({shapes::refined(shapes::c_shape(0.05), 15)});
+    expect_equal_outside_the_layer({shapes::refined(shapes::c_shape(0.05), 40)});
 }
 
 TEST(Topology, ThreadsDoNotMatter) {

@@ -16,16 +16,10 @@
 //     |_________________|            |_________________|        Left: rows whose ends differ by more from row to row.
 //     |_____.-----------|            |_________________|        Right: rows that differ alike, as rows of the same
 //     |-----____________|            |_________________|        heights do everywhere.
-#include "layers/fit_heights.hpp"
+#include "layers/stretch.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
-#include <vector>
-
-#include "core/parallel.hpp"
-#include "layers/narrow_columns.hpp"
-#include "layers/neighbours.hpp"
 
 namespace lamina::layers {
 
@@ -80,15 +74,6 @@ double max_factor_below(double height, std::span<const double> heights, std::uin
     return low;
 }
 
-/// Returns the heights of a column without its stretch.
-std::vector<double> unstretched(const LayerHeights& heights, std::size_t ray) {
-    const std::span<const double> column = heights.of(ray);
-    std::vector<double> result(column.begin(), column.end());
-    const Stretch stretch = heights.column(ray).stretch;
-    stretch_heights({1 / stretch.factor, stretch.above}, result);
-    return result;
-}
-
 }  // namespace
 
 void stretch_heights(const Stretch& stretch, std::span<double> heights) {
@@ -138,73 +123,6 @@ double stretched_last_spacing(double height, std::span<const double> heights, st
     double spacing = heights[n] - heights[n - 1];
     for (std::uint32_t k = stretch.above; stretch.factor != 1 && k < n; ++k) spacing *= stretch.factor;
     return spacing;
-}
-
-namespace {
-
-/// Returns the end of the column of a ray under its limit. Columns up to least heights, whose number of layers the
-/// distance to their neighbours decides, may have fewer layers though nothing cuts them short.
-ColumnEnd end_of_column(const LayerHeights& heights, std::size_t ray, double limit) {
-    const HeightColumn& own = heights.column(ray);
-    const std::vector<double> column = unstretched(heights, ray);
-    const double full = heights.full_height(ray);
-    const bool cut = limit < full, up_to_least = own.max_spacing < HUGE_VAL;
-    const double height = cut ? limit : full;
-    const std::uint32_t n = cut ? layers_up_to(limit, column).layers : own.layers;
-    const LayerRange range = cut || up_to_least ? layer_range(height, column, n) : LayerRange{n, n};
-    const double last_spacing = n > 0 ? column[n] - column[n - 1] : 0;
-    return {height,
-            last_spacing,
-            n,
-            range,
-            range.least < n ? stretched_last_spacing(height, column, range.least) : last_spacing,
-            range.most > n ? stretched_last_spacing(height, column, range.most) : last_spacing,
-            cut};
-}
-
-/// Stretches heights so that layer n ends at this height. `stretch` was that of the heights and becomes the new one.
-/// Heights that had none and need none become empty.
-void stretch_to(double height, std::uint32_t n, Stretch& stretch, std::vector<double>& heights) {
-    const Stretch own = std::exchange(stretch, stretch_of_layers(height, heights, n));
-    if (own.factor == 1 && stretch.factor == 1) {
-        heights.clear();
-    } else {
-        stretch_heights(stretch, heights);
-    }
-}
-
-}  // namespace
-
-LayerHeights fit_heights(const RaySet& set, const LayerHeights& heights, std::span<const double> limits) {
-    std::vector<std::vector<double>> refitted(limits.size());  // empty where a column stays as it is
-    std::vector<HeightColumn> columns(limits.size());
-    std::vector<std::uint32_t> layers(limits.size());
-    std::vector<ColumnEnd> ends(limits.size());
-    core::parallel_for(limits.size(), 256, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            columns[i] = heights.column(i);
-            ends[i] = end_of_column(heights, i, limits[i]);
-            layers[i] = ends[i].wanted;
-        }
-    });
-    limit_count_differences(set, layers);
-    keep_counts_on_narrow_columns(set, ends, layers);
-    limit_count_differences(set, layers);
-    core::parallel_for(limits.size(), 256, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            // A whole column that has fewer layers for the sake of its neighbours still ends where it did.
-            if (!ends[i].cut && layers[i] == columns[i].layers) continue;
-            refitted[i] = unstretched(heights, i);
-            stretch_to(ends[i].height, layers[i], columns[i].stretch, refitted[i]);
-        }
-    });
-    std::vector<double> table = heights.table();
-    for (std::size_t i = 0; i < limits.size(); ++i) {
-        if (refitted[i].empty()) continue;
-        columns[i].first = table.size();
-        table.insert(table.end(), refitted[i].begin(), refitted[i].end());
-    }
-    return LayerHeights(std::move(table), std::move(columns));
 }
 
 }  // namespace lamina::layers

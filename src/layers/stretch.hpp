@@ -1,4 +1,4 @@
-// Columns of heights fitted to the space on their rays.
+// The stretch with which a column of layers ends at a given height.
 #pragma once
 
 #include <span>
@@ -36,10 +36,5 @@ Stretch stretch_of_layers(double height, std::span<const double> heights, std::u
 
 /// Returns the height of the topmost of n layers with that stretch.
 double stretched_last_spacing(double height, std::span<const double> heights, std::uint32_t n);
-
-/// Returns the heights, where the columns of rays that are cut short are stretched. A ray is cut short if its limit is
-/// below the height of all its layers. Its stretch makes a layer end at the limit, or, where that would take more than
-/// max_stretch, brings the last layer below the limit next to it. limits: one height per ray.
-LayerHeights fit_heights(const RaySet& set, const LayerHeights& heights, std::span<const double> limits);
 
 }  // namespace lamina::layers

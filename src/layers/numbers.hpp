@@ -1,4 +1,4 @@
-// Numbers of layers on columns that are narrower than their last layer is high.
+// Numbers of layers on columns of which each may have several.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 #include <lamina/layers.hpp>
 
-#include "layers/fit_heights.hpp"
+#include "layers/stretch.hpp"
 
 namespace lamina::layers {
 
@@ -19,13 +19,9 @@ struct ColumnEnd {
     LayerRange layers;        ///< numbers of layers with which a stretch can keep the front where it is
     double spacing_of_least;  ///< height of the last layer with the least number
     double spacing_of_most;   ///< height of the last layer with the largest number
-    bool cut;                 ///< whether layers end there because something is in the way
 };
 
-/// Changes the numbers of layers beside narrow columns, and where they would shear cells, within the ranges of their ends,
-/// so that they change from ray to ray as rarely as possible. counts: the numbers that are wanted; they stay where columns
-/// are wide and changes cost little.
-void keep_counts_on_narrow_columns(const RaySet& set, std::span<const ColumnEnd> ends,
-                                   std::vector<std::uint32_t>& counts);
+/// Returns the cheapest numbers of layers within the ranges of these ends, one per ray.
+std::vector<std::uint32_t> cheapest_numbers(const RaySet& set, std::span<const ColumnEnd> ends);
 
 }  // namespace lamina::layers

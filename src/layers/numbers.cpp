@@ -1,0 +1,155 @@
+// Numbers of layers by a dynamic programme. Where the number of layers changes, the rows above are shifted by up to a layer
+// from one ray to the next, and the cells are sheared, the more the narrower the column is:
+//
+//     |   |              |   |
+//     |   |__            |___|         Left: five layers beside four that end at the same height. Right: four, a little
+//     |  /|  |           |   |         higher, on both rays. The number changes where columns are wide.
+//     |_/ |__|           |___|
+//     |  /|  |           |   |
+//     |_/_|__|           |___|
+//
+// Each ray has a range of numbers with which a stretch can keep the front where it is. Among all sequences of numbers in
+// these ranges, the cheapest is taken. A change costs the fourth power of the tangent by which the rows that it shifts
+// are off a right angle with the rays. So a change costs little where columns are wide, and where rays lean, it costs
+// less in one direction than in the other (docs/decisions/0057):
+//
+//         / / / /             / / / /
+//        /_/ / /             /_/_/ /      rays that lean to the right; rows that fall in this direction, and that rise
+//       / /_/ /             / / /_/
+//      / / / /_            / / / /
+//
+// A change costs as much, too, where rows turn at one of its rays so that the middles of the cells on both sides lie far
+// below the middle of the face between them (docs/decisions/0060):
+//
+//        __|__
+//       /  |  \      rows that fall away from
+//      /  _|_  \     a ray on both sides
+//        / | \     .
+//
+// Source: R. Bellman, Dynamic Programming (1957): the cheapest sequence, ray by ray.
+#include "layers/numbers.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "layers/neighbours.hpp"
+#include "layers/rows.hpp"
+
+namespace lamina::layers {
+
+namespace {
+
+/// A number costs this much times the square of its distance from the one that is wanted.
+constexpr double cost_of_distance = 0.05;
+/// It costs this much for each layer. So of two sequences that cost the same otherwise, as in mirrored input, the one
+/// with fewer layers is taken.
+constexpr double cost_of_layer = 1e-6;
+
+/// What a ray may have.
+struct RayChoices {
+    LayerRange range;
+    std::uint32_t wanted;
+    const ColumnEnd* end;
+    ColumnRow row;  ///< of the front, from the ray before to this one
+};
+
+/// Returns the height of the last of n layers, which are stretched to end at the front: between those of the number that
+/// is wanted and of the least or the most.
+double last_spacing(const ColumnEnd& end, std::uint32_t n) {
+    const auto between = [&](std::uint32_t other, double spacing) {
+        const double share = (double(n) - double(end.wanted)) / (double(other) - double(end.wanted));
+        return end.last_spacing + std::min(share, 1.0) * (spacing - end.last_spacing);
+    };
+    if (n < end.wanted && end.layers.least < end.wanted) return between(end.layers.least, end.spacing_of_least);
+    if (n > end.wanted && end.layers.most > end.wanted) return between(end.layers.most, end.spacing_of_most);
+    return end.last_spacing;
+}
+
+/// Returns what it costs that the number of layers changes from `before` to `n` on the column before ray k. The topmost
+/// row that both rays share is one layer below the front on one of them. At both rays it meets rows of the front, which
+/// makes faces skewed; a skewness costs as much as a tangent of that size.
+double cost_of_change(std::span<const RayChoices> rays, std::size_t k, std::uint32_t before, std::uint32_t n) {
+    const RayChoices &ray = rays[k], &ray_before = rays[k - 1], &ray_after = rays[k + 1 < rays.size() ? k + 1 : 1];
+    const double spacing = last_spacing(*ray.end, n), spacing_before = last_spacing(*ray_before.end, before);
+    ColumnRow row = ray.row;
+    row.rise += n > before ? -spacing : spacing_before;
+    const double skewness =
+        std::max(skewness_between(ray_before.row, row, spacing_before), skewness_between(row, ray_after.row, spacing));
+    const double tangent = std::max(tangent_of(row), skewness), square = tangent * tangent;
+    return square * square;
+}
+
+/// The cheapest way to a number of layers.
+struct Way {
+    double cost;
+    std::uint32_t before;  ///< the number on the ray before
+};
+
+Way cheapest_way(std::span<const RayChoices> rays, std::size_t k, std::uint32_t n, std::span<const Way> ways_before) {
+    const LayerRange& range_before = rays[k - 1].range;
+    const double off = double(n) - double(rays[k].wanted);
+    const double own = cost_of_distance * off * off + cost_of_layer * n;
+    // A number that no sequence leads to costs infinitely much.
+    Way best{HUGE_VAL, std::clamp(n, range_before.least, range_before.most)};
+    for (const std::uint32_t m : {n, n - std::min(n, 1u), n + 1}) {
+        const std::uint32_t before = std::clamp(m, range_before.least, range_before.most);
+        const double change = std::abs(double(n) - double(before));
+        const double step = change > 0 ? cost_of_change(rays, k, before, n) * change * change : 0;
+        const double cost = ways_before[before - range_before.least].cost + step + own;
+        if (cost < best.cost) best = {cost, before};
+    }
+    return best;
+}
+
+/// A sequence of numbers.
+struct Sequence {
+    double cost;
+    std::vector<std::uint32_t> numbers;
+};
+
+/// Returns the cheapest sequence on rays, of which the first and the last are the same and have this number.
+Sequence cheapest_sequence(std::span<const RayChoices> rays, std::uint32_t held) {
+    const LayerRange& range = rays[0].range;
+    std::vector<std::vector<Way>> ways{std::vector<Way>(range.most - range.least + 1, {HUGE_VAL, 0})};
+    ways[0][held - range.least].cost = 0;
+    for (std::size_t k = 1; k < rays.size(); ++k) {
+        std::vector<Way>& here = ways.emplace_back();
+        for (std::uint32_t n = rays[k].range.least; n <= rays[k].range.most; ++n)
+            here.push_back(cheapest_way(rays, k, n, ways[k - 1]));
+    }
+    Sequence sequence{ways.back()[held - range.least].cost, std::vector<std::uint32_t>(rays.size())};
+    sequence.numbers.back() = held;
+    for (std::size_t k = rays.size() - 1; k > 0; --k)
+        sequence.numbers[k - 1] = ways[k][sequence.numbers[k] - rays[k].range.least].before;
+    return sequence;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> cheapest_numbers(const RaySet& set, std::span<const ColumnEnd> ends) {
+    std::vector<std::uint32_t> numbers(ends.size());
+    for (std::size_t e = 0; e < set.elements(); ++e) {
+        const std::size_t begin = set.begin[e], n = set.begin[e + 1] - begin;
+        std::vector<RayChoices> rays;
+        rays.reserve(n + 1);
+        for (std::size_t i = begin, before = begin + n - 1; i < begin + n; before = i++)
+            rays.push_back({ends[i].layers, ends[i].wanted, &ends[i],
+                            row_between(set.lines[before], ends[before].height, set.lines[i], ends[i].height)});
+        // The sequence closes at a ray with few numbers, each of which is tried.
+        const auto first = std::min_element(rays.begin(), rays.end(), [](const RayChoices& a, const RayChoices& b) {
+            return a.range.most - a.range.least < b.range.most - b.range.least;
+        });
+        const auto offset = static_cast<std::size_t>(first - rays.begin());
+        std::rotate(rays.begin(), first, rays.end());
+        rays.push_back(rays.front());
+        Sequence best{HUGE_VAL, {}};
+        for (std::uint32_t held = rays[0].range.least; held <= rays[0].range.most; ++held)
+            if (Sequence found = cheapest_sequence(rays, held); best.numbers.empty() || found.cost < best.cost)
+                best = std::move(found);
+        for (std::size_t k = 0; k < n; ++k) numbers[begin + (offset + k) % n] = best.numbers[k];
+    }
+    return numbers;
+}
+
+}  // namespace lamina::layers
