@@ -197,13 +197,14 @@ struct Stretch {
 
 /// The column of heights on one ray: a part of LayerHeights::table().
 struct HeightColumn {
-    std::size_t first = 0;          ///< index in the table where the column begins
-    std::uint32_t layers = 0;       ///< number of layers up to the front
-    double growth = 0;              ///< as Ray::growth
-    Stretch stretch{};              ///< as Ray::stretch
-    double max_spacing = HUGE_VAL;  ///< as Ray::max_spacing
-    bool cut = false;               ///< whether the front is lower than the asked height
-    double taper = 1;               ///< as Ray::taper
+    std::size_t first = 0;           ///< index in the table where the column begins
+    std::uint32_t layers = 0;        ///< number of layers up to the front
+    std::uint32_t asked_layers = 0;  ///< number of layers up to the asked height
+    bool cut = false;                ///< whether the front is lower than the asked height
+    double growth = 0;               ///< as Ray::growth
+    Stretch stretch{};               ///< as Ray::stretch
+    double max_spacing = HUGE_VAL;   ///< as Ray::max_spacing
+    double taper = 1;                ///< as Ray::taper
 };
 
 /// The heights of layers up to the front, ray by ray.
@@ -267,10 +268,9 @@ struct Rays {
     /// they are little longer than asked for: a point on a flat one makes an angle near 180 degrees, where a Delaunay
     /// triangulation joins it to points farther below.
     LayerTopology topology = LayerTopology::layered;
-    LayerGrowth growth;         ///< the growth that was requested
-    std::vector<double> asked;  ///< height along each ray at which its layers are to end; empty if disabled
-    std::vector<std::uint32_t> asked_layers;  ///< number of layers up to there; empty if disabled
-    std::vector<double> limits;               ///< height beyond which something is in a ray's way; empty if disabled
+    LayerGrowth growth;                 ///< the growth that was requested
+    std::vector<double> asked;          ///< height along each ray at which its layers are to end; empty if disabled
+    std::vector<double> limits;         ///< height beyond which something is in a ray's way; empty if disabled
     std::vector<double> front;          ///< height at which the columns end, at most the asked one; empty if disabled
     LayerHeights heights;               ///< the columns up to the front
     std::vector<std::uint32_t> counts;  ///< number of layers on each ray

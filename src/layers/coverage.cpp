@@ -67,8 +67,8 @@ std::vector<ElementCoverage> layer_coverage(const Rays& rays) {
         double most_missing = 0;
         for (std::size_t i = set.begin[e]; i < set.begin[e + 1]; ++i) {
             if (set.lines[i].place != RayPlace::wall) continue;
-            const std::uint32_t requested = rays.asked_layers[i];
-            const std::uint32_t requested_cells = std::min(requested, rays.asked_layers[next[i]]),
+            const std::uint32_t requested = heights.column(i).asked_layers;
+            const std::uint32_t requested_cells = std::min(requested, heights.column(next[i]).asked_layers),
                                 made_cells = std::min(counts[i], counts[next[i]]);
             add_ray(counts[i] == requested, all);
             add_cells(requested_cells, made_cells, all);

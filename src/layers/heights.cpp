@@ -94,68 +94,111 @@ std::vector<double> asked_on_element(const RaySet& own, const LayerGrowth& growt
     return asked;
 }
 
-/// Returns the heights of a column up to the first one above `end`: `scale` times those of the law, with spacings of at
-/// most max_spacing.
-std::vector<double> heights_beyond(double end, double scale, double max_spacing, std::span<const double> of_law) {
-    std::vector<double> heights{0.0};
-    for (std::size_t n = 1; n < of_law.size() && heights.back() <= end; ++n)
-        heights.push_back(heights.back() + std::min(scale * (of_law[n] - of_law[n - 1]), max_spacing));
-    return heights;
-}
-
-/// Returns the end of a column whose layers end at `front`, where they could end higher. heights: those of unstretched
-/// layers. A `fixed` number of layers that nothing cuts short stays.
-ColumnEnd end_of_column(double front, double asked, bool fixed, std::span<const double> heights) {
-    const bool stays = fixed && front == asked;
-    const std::uint32_t n = stays ? layer_count(heights) : layers_up_to(front, heights).layers;
-    const LayerRange range = stays ? LayerRange{n, n} : layer_range(front, heights, n);
-    const double last_spacing = stretched_last_spacing(front, heights, n);
-    return {front,
-            last_spacing,
-            n,
-            range,
-            range.least < n ? stretched_last_spacing(front, heights, range.least) : last_spacing,
-            range.most > n ? stretched_last_spacing(front, heights, range.most) : last_spacing};
-}
-
-/// Returns the largest spacings on the rays of an element, along them.
-std::vector<double> spacings_on_element(const RaySet& own, const LayerGrowth& growth, std::span<const double> front) {
-    if (growth.least_heights.empty()) return std::vector<double>(front.size(), HUGE_VAL);
-    return largest_spacings(own, front, first_heights_along(own, growth), growth.fineness);
-}
-
-/// Appends the columns of one element.
-void add_columns(const RaySet& own, const LayerGrowth& growth, std::span<const double> asked,
-                 std::span<const double> front, std::vector<double>& table, std::vector<HeightColumn>& columns) {
-    const std::size_t n = own.lines.size();
-    const LawHeights law(own, growth);
-    const std::vector<double> max_spacings = spacings_on_element(own, growth, front);
-    // One layer more than fits may be made to fit by its stretch.
-    constexpr double fronts = 2;
-    std::vector<std::vector<double>> heights(n);
-    std::vector<std::uint32_t> layers(n);
-    std::vector<ColumnEnd> ends(n);
-    core::parallel_for(n, 256, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const double scale = own.lines[i].slant * own.lines[i].opening;
-            const double beyond = growth.layers ? HUGE_VAL : fronts * front[i];
-            heights[i] = heights_beyond(beyond, scale, max_spacings[i], law.of(i));
-            ends[i] = end_of_column(front[i], asked[i], growth.layers.has_value(), heights[i]);
-            layers[i] = ends[i].wanted;
-        }
-    });
-    if (uses("numbers")) layers = cheapest_numbers(own, ends);
-    limit_count_differences(own, layers);
-    for (std::size_t i = 0; i < n; ++i) {
-        if (!growth.layers && layers[i] >= max_automatic_layers) throw_too_many_layers();
-        const bool cut = front[i] < asked[i], whole = growth.layers && !cut && layers[i] == layer_count(heights[i]);
-        const Stretch stretch = whole ? Stretch{} : stretch_of_layers(front[i], heights[i], layers[i]);
-        heights[i].resize(layers[i] + std::size_t{1});
-        stretch_heights(stretch, heights[i]);
-        columns.push_back({table.size(), layers[i], law.growth(i), stretch, max_spacings[i], cut});
-        table.insert(table.end(), heights[i].begin(), heights[i].end());
+/// The columns of one element while they are made.
+class ElementColumns {
+public:
+    /// asked, front: of the rays of this element.
+    ElementColumns(RaySet rays, LayerGrowth growth, std::span<const double> asked, std::span<const double> front)
+        : rays_(std::move(rays)), growth_(std::move(growth)), asked_(asked), front_(front), law_(rays_, growth_) {
+        make_unstretched();
+        choose_numbers();
+        if (!growth_.layers &&
+            std::any_of(layers_.begin(), layers_.end(), [](std::uint32_t n) { return n >= max_automatic_layers; }))
+            throw_too_many_layers();
     }
-}
+
+    /// Stretches the columns to the front and appends them.
+    void append_to(std::vector<double>& table, std::vector<HeightColumn>& columns) && {
+        const std::vector<std::uint32_t> asked_layers = count_asked_layers();
+        for (std::size_t i = 0; i < layers_.size(); ++i) {
+            const bool whole = growth_.layers && !is_cut(i) && layers_[i] == layer_count(heights_[i]);
+            const Stretch stretch = whole ? Stretch{} : stretch_of_layers(front_[i], heights_[i], layers_[i]);
+            heights_[i].resize(layers_[i] + std::size_t{1});
+            stretch_heights(stretch, heights_[i]);
+            columns.push_back(
+                {table.size(), layers_[i], asked_layers[i], is_cut(i), law_.growth(i), stretch, max_spacings_[i]});
+            table.insert(table.end(), heights_[i].begin(), heights_[i].end());
+        }
+    }
+
+private:
+    RaySet rays_;
+    LayerGrowth growth_;
+    std::span<const double> asked_, front_;
+    LawHeights law_;
+    std::vector<double> max_spacings_;
+    std::vector<std::vector<double>> heights_;  ///< as the law makes them, beyond the front
+    std::vector<std::uint32_t> layers_;
+
+    bool is_cut(std::size_t ray) const { return front_[ray] < asked_[ray]; }
+
+    /// Returns the largest spacings on the way to these ends.
+    std::vector<double> spacings_up_to(std::span<const double> ends) const {
+        if (growth_.least_heights.empty()) return std::vector<double>(ends.size(), HUGE_VAL);
+        return largest_spacings(rays_, ends, first_heights_along(rays_, growth_), growth_.fineness);
+    }
+
+    /// Returns the heights on a ray up to the first one above `end`.
+    std::vector<double> heights_beyond(double end, std::size_t ray, double max_spacing) const {
+        const double scale = rays_.lines[ray].slant * rays_.lines[ray].opening;
+        const std::span<const double> of_law = law_.of(ray);
+        std::vector<double> heights{0.0};
+        for (std::size_t n = 1; n < of_law.size() && heights.back() <= end; ++n)
+            heights.push_back(heights.back() + std::min(scale * (of_law[n] - of_law[n - 1]), max_spacing));
+        return heights;
+    }
+
+    void make_unstretched() {
+        constexpr double fronts = 2;  // layers that do not fit may be made to fit by a stretch
+        max_spacings_ = spacings_up_to(front_);
+        heights_.resize(front_.size());
+        core::parallel_for(front_.size(), 256, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i)
+                heights_[i] = heights_beyond(growth_.layers ? HUGE_VAL : fronts * front_[i], i, max_spacings_[i]);
+        });
+    }
+
+    /// Returns the end of a column. A requested number of layers that nothing cuts short stays.
+    ColumnEnd end_of(std::size_t ray) const {
+        const double front = front_[ray];
+        const std::span<const double> heights = heights_[ray];
+        const bool stays = growth_.layers && !is_cut(ray);
+        const std::uint32_t n = stays ? layer_count(heights) : layers_up_to(front, heights).layers;
+        const LayerRange range = stays ? LayerRange{n, n} : layer_range(front, heights, n);
+        const auto spacing = [&](std::uint32_t layers) { return stretched_last_spacing(front, heights, layers); };
+        const double last = spacing(n);
+        return {front,
+                last,
+                n,
+                range,
+                range.least < n ? spacing(range.least) : last,
+                range.most > n ? spacing(range.most) : last};
+    }
+
+    void choose_numbers() {
+        std::vector<ColumnEnd> ends(front_.size());
+        core::parallel_for(ends.size(), 256, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) ends[i] = end_of(i);
+        });
+        layers_ = cheapest_numbers(rays_, ends);
+        limit_count_differences(rays_, layers_);
+    }
+
+    /// Returns the numbers of layers up to the asked heights: those made where nothing cuts them short.
+    std::vector<std::uint32_t> count_asked_layers() const {
+        std::vector<std::uint32_t> counts(layers_);
+        if (growth_.layers) {
+            for (std::size_t i = 0; i < counts.size(); ++i) counts[i] = layer_count(heights_[i]);
+        } else if (!std::equal(front_.begin(), front_.end(), asked_.begin())) {
+            const std::vector<double> spacings = spacings_up_to(asked_);
+            for (std::size_t i = 0; i < counts.size(); ++i)
+                if (is_cut(i))
+                    counts[i] =
+                        std::max(counts[i], layers_up_to(asked_[i], heights_beyond(asked_[i], i, spacings[i])).layers);
+        }
+        return counts;
+    }
+};
 
 }  // namespace
 
@@ -219,24 +262,6 @@ std::vector<double> asked_heights(const RaySet& set, const LayerGrowth& growth) 
     return asked;
 }
 
-std::vector<std::uint32_t> asked_layers(const RaySet& set, const LayerGrowth& growth, std::span<const double> asked) {
-    std::vector<std::uint32_t> layers;
-    layers.reserve(asked.size());
-    for (std::size_t e = 0; e < set.elements(); ++e) {
-        const RaySet own = rays_of_element(set, e);
-        const LayerGrowth own_growth = growth_on_element(growth, e);
-        const LawHeights law(own, own_growth);
-        const std::span<const double> own_asked = asked.subspan(set.begin[e], own.lines.size());
-        const std::vector<double> max_spacings = spacings_on_element(own, own_growth, own_asked);
-        for (std::size_t i = 0; i < own.lines.size(); ++i) {
-            const double scale = own.lines[i].slant * own.lines[i].opening;
-            const std::vector<double> heights = heights_beyond(own_asked[i], scale, max_spacings[i], law.of(i));
-            layers.push_back(growth.layers ? layer_count(law.of(i)) : layers_up_to(own_asked[i], heights).layers);
-        }
-    }
-    return layers;
-}
-
 LayerHeights columns_up_to(const RaySet& set, const LayerGrowth& growth, std::span<const double> asked,
                            std::span<const double> front) {
     std::vector<double> table;
@@ -244,8 +269,9 @@ LayerHeights columns_up_to(const RaySet& set, const LayerGrowth& growth, std::sp
     columns.reserve(set.lines.size());
     for (std::size_t e = 0; e < set.elements(); ++e) {
         const std::size_t begin = set.begin[e], count = set.begin[e + 1] - begin;
-        add_columns(rays_of_element(set, e), growth_on_element(growth, e), asked.subspan(begin, count),
-                    front.subspan(begin, count), table, columns);
+        ElementColumns(rays_of_element(set, e), growth_on_element(growth, e), asked.subspan(begin, count),
+                       front.subspan(begin, count))
+            .append_to(table, columns);
     }
     return LayerHeights(std::move(table), std::move(columns));
 }

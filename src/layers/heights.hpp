@@ -1,7 +1,6 @@
 // Columns: the heights of the layers on each ray, from what is asked for and from where the front is to lie.
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -28,9 +27,6 @@ std::vector<double> first_heights_along(const RaySet& set, const LayerGrowth& gr
 /// of their thickness, or of isotropy, and at least that of the flow's boundary layer. Throws OptionError where more than
 /// 1000 layers would be needed up to isotropy. Precondition: slants are set.
 std::vector<double> asked_heights(const RaySet& set, const LayerGrowth& growth);
-
-/// Returns the number of layers on each ray up to the asked height.
-std::vector<std::uint32_t> asked_layers(const RaySet& set, const LayerGrowth& growth, std::span<const double> asked);
 
 /// Returns columns that end at `front`, which holds a height along each ray, at most the `asked` one. A ray whose front is
 /// the asked one has the layers of a requested number as the growth law makes them. Other columns are stretched, and their

@@ -236,7 +236,7 @@ private:
                 layer_.rays[e].push_back({.origin = origin_of_ray_[i],
                                           .direction = set_.lines[i].direction,
                                           .layers = count,
-                                          .requested = rays_.asked_layers[i],
+                                          .requested = column.asked_layers,
                                           .growth = column.growth,
                                           .first_point = first_point_[i],
                                           .height_limit = height_limit(i),

@@ -20,7 +20,6 @@ void measure_room(Rays& rays) {
     set_slants(rays.set);
     rays.asked = asked_heights(rays.set, rays.growth);
     rays.limits = height_limits(rays.set, rays.asked);
-    rays.asked_layers = asked_layers(rays.set, rays.growth, rays.asked);
     rays.front = front_heights(rays);
 }
 
@@ -48,11 +47,6 @@ std::vector<double> front_heights(const Rays& rays) {
 void fit_and_count_layers(Rays& rays) {
     rays.front = front_heights(rays);
     rays.heights = columns_up_to(rays.set, rays.growth, rays.asked, rays.front);
-    // Columns that nothing cuts short have what is asked for, whatever their number is.
-    for (std::size_t i = 0; !rays.growth.layers && i < rays.front.size(); ++i) {
-        const HeightColumn& column = rays.heights.column(i);
-        rays.asked_layers[i] = column.cut ? std::max(rays.asked_layers[i], column.layers) : column.layers;
-    }
     rays.counts = layer_counts(rays.set, rays.heights);
     taper_columns(rays);
 }

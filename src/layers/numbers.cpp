@@ -30,10 +30,10 @@
 #include "layers/numbers.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <utility>
 
-#include "layers/neighbours.hpp"
+#include "layers/mechanisms.hpp"
 #include "layers/rows.hpp"
 
 namespace lamina::layers {
@@ -80,55 +80,97 @@ double cost_of_change(std::span<const RayChoices> rays, std::size_t k, std::uint
     return square * square;
 }
 
-/// The cheapest way to a number of layers.
-struct Way {
-    double cost;
-    std::uint32_t before;  ///< the number on the ray before
+/// A step from a number on the ray before.
+struct Step {
+    std::uint32_t before;
+    double cost;  ///< of the change, and of the number that it leads to
 };
 
-Way cheapest_way(std::span<const RayChoices> rays, std::size_t k, std::uint32_t n, std::span<const Way> ways_before) {
+/// Returns the steps to number n of ray k: from the same number, the one below and the one above, or those nearest to them.
+std::array<Step, 3> steps_to(std::span<const RayChoices> rays, std::size_t k, std::uint32_t n) {
     const LayerRange& range_before = rays[k - 1].range;
     const double off = double(n) - double(rays[k].wanted);
     const double own = cost_of_distance * off * off + cost_of_layer * n;
-    // A number that no sequence leads to costs infinitely much.
-    Way best{HUGE_VAL, std::clamp(n, range_before.least, range_before.most)};
-    for (const std::uint32_t m : {n, n - std::min(n, 1u), n + 1}) {
-        const std::uint32_t before = std::clamp(m, range_before.least, range_before.most);
+    std::array<Step, 3> steps;
+    const std::array<std::uint32_t, 3> numbers{n, n - std::min(n, 1u), n + 1};
+    for (std::size_t s = 0; s < steps.size(); ++s) {
+        const std::uint32_t before = std::clamp(numbers[s], range_before.least, range_before.most);
         const double change = std::abs(double(n) - double(before));
-        const double step = change > 0 ? cost_of_change(rays, k, before, n) * change * change : 0;
-        const double cost = ways_before[before - range_before.least].cost + step + own;
-        if (cost < best.cost) best = {cost, before};
+        steps[s] = {before, own + (change > 0 ? cost_of_change(rays, k, before, n) * change * change : 0)};
     }
-    return best;
+    return steps;
 }
 
-/// A sequence of numbers.
-struct Sequence {
-    double cost;
-    std::vector<std::uint32_t> numbers;
+/// The cheapest ways to the numbers of the rays of one element.
+class NumberSearch {
+public:
+    /// rays: the first one stands at the end again.
+    explicit NumberSearch(std::span<const RayChoices> rays) : rays_(rays), steps_(rays.size()), ways_(rays.size()) {
+        for (std::size_t k = 0; k < rays.size(); ++k) {
+            const LayerRange& range = rays[k].range;
+            ways_[k].resize(range.most - range.least + std::size_t{1});
+            for (std::uint32_t n = range.least; k > 0 && n <= range.most; ++n)
+                steps_[k].push_back(steps_to(rays, k, n));
+        }
+    }
+
+    /// Returns the cheapest numbers: the sequence begins and ends with each number of the first ray in turn.
+    std::vector<std::uint32_t> run() && {
+        double least = HUGE_VAL;
+        std::vector<std::uint32_t> best;
+        for (std::uint32_t held = rays_[0].range.least; held <= rays_[0].range.most; ++held) {
+            const double cost = cost_from(held);
+            if (!best.empty() && !(cost < least)) continue;
+            least = cost;
+            best = numbers_to(held);
+        }
+        return best;
+    }
+
+private:
+    /// The cheapest way to a number.
+    struct Way {
+        double cost;
+        std::uint32_t before;
+    };
+    std::span<const RayChoices> rays_;
+    std::vector<std::vector<std::array<Step, 3>>> steps_;  ///< by ray and number
+    std::vector<std::vector<Way>> ways_;                   ///< by ray and number
+
+    /// Finds the ways from this number of the first ray, and returns the cost of the one back to it. Numbers to which none
+    /// leads cost infinitely much.
+    double cost_from(std::uint32_t held) {
+        for (Way& way : ways_[0]) way = {HUGE_VAL, held};
+        ways_[0][held - rays_[0].range.least].cost = 0;
+        for (std::size_t k = 1; k < rays_.size(); ++k)
+            for (std::size_t n = 0; n < ways_[k].size(); ++n) {
+                Way& way = ways_[k][n];
+                way = {HUGE_VAL, steps_[k][n][0].before};
+                for (const Step& step : steps_[k][n]) {
+                    const double cost = ways_[k - 1][step.before - rays_[k - 1].range.least].cost + step.cost;
+                    if (cost < way.cost) way = {cost, step.before};
+                }
+            }
+        return ways_.back()[held - rays_[0].range.least].cost;
+    }
+
+    /// Returns the numbers on the way to this number of the last ray.
+    std::vector<std::uint32_t> numbers_to(std::uint32_t held) const {
+        std::vector<std::uint32_t> numbers(rays_.size(), held);
+        for (std::size_t k = rays_.size() - 1; k > 0; --k)
+            numbers[k - 1] = ways_[k][numbers[k] - rays_[k].range.least].before;
+        return numbers;
+    }
 };
-
-/// Returns the cheapest sequence on rays, of which the first and the last are the same and have this number.
-Sequence cheapest_sequence(std::span<const RayChoices> rays, std::uint32_t held) {
-    const LayerRange& range = rays[0].range;
-    std::vector<std::vector<Way>> ways{std::vector<Way>(range.most - range.least + 1, {HUGE_VAL, 0})};
-    ways[0][held - range.least].cost = 0;
-    for (std::size_t k = 1; k < rays.size(); ++k) {
-        std::vector<Way>& here = ways.emplace_back();
-        for (std::uint32_t n = rays[k].range.least; n <= rays[k].range.most; ++n)
-            here.push_back(cheapest_way(rays, k, n, ways[k - 1]));
-    }
-    Sequence sequence{ways.back()[held - range.least].cost, std::vector<std::uint32_t>(rays.size())};
-    sequence.numbers.back() = held;
-    for (std::size_t k = rays.size() - 1; k > 0; --k)
-        sequence.numbers[k - 1] = ways[k][sequence.numbers[k] - rays[k].range.least].before;
-    return sequence;
-}
 
 }  // namespace
 
 std::vector<std::uint32_t> cheapest_numbers(const RaySet& set, std::span<const ColumnEnd> ends) {
     std::vector<std::uint32_t> numbers(ends.size());
+    if (!uses("numbers")) {
+        for (std::size_t i = 0; i < ends.size(); ++i) numbers[i] = ends[i].wanted;
+        return numbers;
+    }
     for (std::size_t e = 0; e < set.elements(); ++e) {
         const std::size_t begin = set.begin[e], n = set.begin[e + 1] - begin;
         std::vector<RayChoices> rays;
@@ -136,18 +178,15 @@ std::vector<std::uint32_t> cheapest_numbers(const RaySet& set, std::span<const C
         for (std::size_t i = begin, before = begin + n - 1; i < begin + n; before = i++)
             rays.push_back({ends[i].layers, ends[i].wanted, &ends[i],
                             row_between(set.lines[before], ends[before].height, set.lines[i], ends[i].height)});
-        // The sequence closes at a ray with few numbers, each of which is tried.
+        // The sequence closes at a ray with few numbers.
         const auto first = std::min_element(rays.begin(), rays.end(), [](const RayChoices& a, const RayChoices& b) {
             return a.range.most - a.range.least < b.range.most - b.range.least;
         });
         const auto offset = static_cast<std::size_t>(first - rays.begin());
         std::rotate(rays.begin(), first, rays.end());
         rays.push_back(rays.front());
-        Sequence best{HUGE_VAL, {}};
-        for (std::uint32_t held = rays[0].range.least; held <= rays[0].range.most; ++held)
-            if (Sequence found = cheapest_sequence(rays, held); best.numbers.empty() || found.cost < best.cost)
-                best = std::move(found);
-        for (std::size_t k = 0; k < n; ++k) numbers[begin + (offset + k) % n] = best.numbers[k];
+        const std::vector<std::uint32_t> found = NumberSearch(rays).run();
+        for (std::size_t k = 0; k < n; ++k) numbers[begin + (offset + k) % n] = found[k];
     }
     return numbers;
 }

@@ -99,7 +99,7 @@ void renew_requests(const CaseOptions& options, RayPlan& plan) {
 /// Returns whether all rays have all layers that were requested.
 bool all_layers_fit(const Rays& rays) {
     for (std::size_t i = 0; i < rays.counts.size(); ++i)
-        if (rays.counts[i] < rays.asked_layers[i]) return false;
+        if (rays.counts[i] < rays.heights.column(i).asked_layers) return false;
     return true;
 }
 
