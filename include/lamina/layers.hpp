@@ -174,17 +174,17 @@ struct RayLine {
     Point direction;                  ///< unit vector
     RayPlace place = RayPlace::wall;  ///< where it stands
     /// Its first height over the one wanted: above 1 along wakes, below 1 where a wall has no room
-    /// (docs/decisions/0071).
+    /// (docs/layer.md).
     double opening = 1;
     double least_height = 0;  ///< that of its column: LayerGrowth::least_heights or WakePoint
     /// Height along the ray over the height above the wall's edges beside it, which the growth law gives: 1 for a ray
     /// along their normals, 1.41 for one out of a cove corner of 90 degrees; at most max_slant.
     double slant = 1;
     /// All points of its layers lie beside the line by this vector, so that the first layer has its height above both
-    /// edges at a corner out of which the ray leans; zero elsewhere (docs/decisions/0064).
+    /// edges at a corner out of which the ray leans; zero elsewhere (docs/layer.md).
     Point shift{};
     /// The wall's vertices between this ray and the next one, in their order: a sharp concave corner and those so near
-    /// to it that no first layer fits between its sides. They have no rays. Empty elsewhere (docs/decisions/0070).
+    /// to it that no first layer fits between its sides. They have no rays. Empty elsewhere (docs/layer.md).
     std::vector<Point> corner_after{};
 };
 
@@ -260,11 +260,11 @@ struct Rays {
     RaySet set;                   ///< origins and directions
     std::vector<char> resampled;  ///< one per element: Element::resampled
     /// One per element: whether it is resampled between so many corners that it is not smooth, as iced ones are. Rays
-    /// stand at its vertices alone, lest neighbouring edges differ by whole factors (docs/decisions/0064).
+    /// stand at its vertices alone, lest neighbouring edges differ by whole factors (docs/layer.md).
     std::vector<char> jagged;
     bool enabled = true;  ///< LayerOptions::enabled
     /// LayerOptions::topology. Last layers of quadrilaterals are not made higher where rays lean or numbers of layers change,
-    /// since faces between them would be more skewed for it (docs/decisions/0063). Tops of cells of the grid on resampled walls stay whole where
+    /// since faces between them would be more skewed for it (docs/layer.md). Tops of cells of the grid on resampled walls stay whole where
     /// they are little longer than asked for: a point on a flat one makes an angle near 180 degrees, where a Delaunay
     /// triangulation joins it to points farther below.
     LayerTopology topology = LayerTopology::layered;
@@ -351,7 +351,7 @@ struct Ray {
     /// lower where a wall has no room.
     double opening = 1;
     /// The height of the last layer over that which it would have otherwise, 0.1 to 2. Those below move so that the
-    /// ray keeps its end (docs/decisions/0063). 1 where a number of layers is requested.
+    /// ray keeps its end (docs/layer.md). 1 where a number of layers is requested.
     double taper = 1;
     Point shift{};                         ///< RayLine::shift
     std::vector<VertexId> corner_after{};  ///< the vertices of RayLine::corner_after

@@ -8,7 +8,7 @@
 //     +-----+--+--+-++-++   _.-'       +-----+----`+----`+   _.-'
 //     o-----o-----o-----o-'            o-----o-----o-----o-'           left: open; right: closed by a strip
 //
-// docs/decisions/0070
+// docs/layer.md
 #include "layers/clefts.hpp"
 
 #include <algorithm>

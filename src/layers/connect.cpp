@@ -224,7 +224,7 @@ private:
     }
 
     /// Adds the cells of the first layer in a sharp corner of the wall that has no ray. The triangles on the edges of
-    /// the wall beside both rays have the first height, and that at the corner has its angle (docs/decisions/0070).
+    /// the wall beside both rays have the first height, and that at the corner has its angle (docs/layer.md).
     /// Where no first layer fits between its sides, more of the wall's vertices have no rays, and triangles go from
     /// side to side.
     ///

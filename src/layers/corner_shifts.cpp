@@ -1,6 +1,6 @@
 // The ray of a corner that leans, so that it meets its neighbours higher up (leans.hpp), is too high
 // above one of the edges beside it and too low above the other. It leaves the corner along the bisector instead, up to
-// the top of the first layer, and leans from there on (docs/decisions/0064):
+// the top of the first layer, and leans from there on (docs/layer.md):
 //
 //     \      /           \      /
 //      \    /             \    /      o: top of the first layer. Left: on a ray that leans to the right, too low above

@@ -8,7 +8,7 @@
 //       ______\|/______                 ______\|/______
 //             / \                             / \              left: all rays; right: as many as there is room for
 //
-// docs/decisions/0072
+// docs/layer.md
 #include "layers/low_fans.hpp"
 
 #include <algorithm>

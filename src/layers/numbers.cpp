@@ -11,7 +11,7 @@
 // Each ray has a range of numbers with which a stretch can keep the front where it is. Among all sequences of numbers in
 // these ranges, the cheapest is taken. A change costs the fourth power of the tangent by which the rows that it shifts
 // are off a right angle with the rays. So a change costs little where columns are wide, and where rays lean, it costs
-// less in one direction than in the other (docs/decisions/0057):
+// less in one direction than in the other (docs/layer.md):
 //
 //         / / / /             / / / /
 //        /_/ / /             /_/_/ /      rays that lean to the right; rows that fall in this direction, and that rise

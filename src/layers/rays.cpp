@@ -73,7 +73,7 @@ void add_vertex_rays(const RayVertex& at, const WallVertex& vertex, double max_a
 
 /// Adds the rays between two others that differ by more than the largest angle, evenly spaced on the edge. Corners of
 /// jagged outlines are so many, and their edges so short, that neighbouring edges would differ by whole factors
-/// (docs/decisions/0064). Rays are added there only where a column opens widely, none where rays converge.
+/// (docs/layer.md). Rays are added there only where a column opens widely, none where rays converge.
 void add_refining_rays(const RayLine& first, const RayLine& last, double max_angle, bool jagged,
                        std::vector<RayLine>& rays) {
     const IntermediateRays between(first, last);

@@ -10,7 +10,7 @@
 //              `-._   |
 //                  `-._a
 //
-// docs/decisions/0070
+// docs/layer.md
 #include "layers/sharp_corners.hpp"
 
 #include <algorithm>

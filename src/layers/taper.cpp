@@ -14,7 +14,7 @@
 // A point at the distance x below the front, in lengths of the part that changes, comes to the distance
 // x (s + (1 - s) f(x)) with f(x) = x (2 - x), whose slope is s at the front and 1 at the end of the part, so that nothing
 // jumps there. A last layer of the height x becomes s + (1 - s) f(x) times as high. Where columns are far wider than their
-// last layers are high, s is above 1. docs/decisions/0063.
+// last layers are high, s is above 1. docs/layer.md.
 #include "layers/taper.hpp"
 
 #include <algorithm>

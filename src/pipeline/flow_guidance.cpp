@@ -16,7 +16,7 @@ constexpr double max_change = 0.05;
 /// No spacing is smaller than this for the flow's sake, in chords of the configuration.
 constexpr double min_spacing = 2e-4;
 /// Spacing at the corners of a base, in first heights; less where the flow passes them faster than the free stream. With
-/// 100, y+ is a quarter too large there (docs/decisions/0040).
+/// 100, y+ is a quarter too large there (docs/layer.md).
 constexpr double base_corner_heights = 60;
 
 /// Adds the heights along a side, from its stagnation point to its trailing edge.

@@ -44,7 +44,7 @@ void refine_walls_below_borders(const Geometry& given, const CaseOptions& option
                                 const LayerGrowth& growth, RayPlan& plan);
 
 /// Shortens rays so that columns end below cells with an angle above 150 degrees, for as long as there are fewer and fewer of
-/// them, first below those far from the wall. First layers stay (docs/decisions/0066).
+/// them, first below those far from the wall. First layers stay (docs/layer.md).
 void end_columns_below_obtuse_cells(const CaseOptions& options, RayPlan& plan);
 
 /// If there are isotropic triangles whose angle is below the bound, and which no sharp corner excuses: shortens the
