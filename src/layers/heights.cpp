@@ -82,7 +82,7 @@ std::vector<double> asked_on_element(const RaySet& own, const LayerGrowth& growt
         return asked;
     }
     const std::vector<double> least = growth.least_heights.empty() ? std::vector<double>() : least_heights(own);
-    asked = heights_of_isotropy(own, law.of(0), least, growth.fineness);
+    asked = heights_of_isotropy(own, law.of(0), least);
     for (std::size_t i = 0; i < asked.size(); ++i) {
         if (!growth.thickness && asked[i] >= own.lines[i].opening * law.of(i).back()) throw_too_many_layers();
         asked[i] *= own.lines[i].slant;

@@ -28,9 +28,8 @@ constexpr double transition_aspect = 1;
 /// spreading rays never become as high as wide.
 constexpr double max_spread = 2;
 /// Where columns go on beyond isotropy, cells are at most this many times as high as wide, unless the column is so
-/// narrow that it would get many more layers than the last number. Those of fans would be 1.9 times as high as wide
-/// with a growth of 1.2 and rays 5 degrees apart.
-constexpr double max_tallness = 1.5, max_tallness_in_fans = 1.3;
+/// narrow that it would get many more layers than the second number.
+constexpr double max_tallness = 1.5;
 constexpr double max_layers_beyond_isotropy = 20;
 /// Slopes with which the front falls from a fan, and from where it reaches the least heights, on both sides.
 constexpr double slope_beside_fans = 0.1, slope_beside_least = 0.9 * max_front_slope;
@@ -92,10 +91,9 @@ void raise_to(std::vector<double> needed, double slope, const RaySet& set, const
 /// Returns the heights at which the front's edges over fans are nearly as long as those beside, and 0 elsewhere. A front
 /// whose edges were shorter over the fan would ask for a finer wall there, which would lower it further.
 std::vector<double> heights_over_fans(const RayDistances& rays, std::size_t count) {
-    constexpr double edge_share = 0.9;  // of the distance to the neighbour beside the fan
     std::vector<double> needed(count);
     const auto raise = [&](std::size_t outside, std::size_t end, std::size_t inside) {
-        needed[end] = edge_share * rays.between(outside, end, 0) / rays.between(end, inside, 1);
+        needed[end] = rays.between(outside, end, 0) / rays.between(end, inside, 1);
     };
     for (std::size_t i = 0; i < count; ++i) {
         const std::size_t before = rays.previous(i), after = rays.next(i);
@@ -103,16 +101,6 @@ std::vector<double> heights_over_fans(const RayDistances& rays, std::size_t coun
         if (fan_after && !fan_before) raise(before, i, after);
         if (fan_before && !fan_after) raise(after, i, before);
     }
-    return needed;
-}
-
-/// Returns the least heights, or less over walls with short edges: a thick layer over a narrow base would end in edges far
-/// shorter than those over the fans beside it.
-std::vector<double> reachable_heights(std::span<const double> least, const RayDistances& rays, double fineness) {
-    constexpr double most_widths = 60;
-    std::vector<double> needed(least.size());
-    for (std::size_t i = 0; i < least.size(); ++i)
-        if (!rays.inside_fan(i)) needed[i] = std::min(least[i], fineness * most_widths * rays.to_neighbours(i, 0));
     return needed;
 }
 
@@ -164,7 +152,7 @@ double bisect(double low, double high, Below below) {
 }  // namespace
 
 std::vector<double> heights_of_isotropy(const RaySet& set, std::span<const double> heights,
-                                        std::span<const double> least, double fineness) {
+                                        std::span<const double> least) {
     const RayDistances rays(set);
     std::vector<double> front(set.lines.size());  // height of the front on each ray
     const auto opening = [&](std::size_t i) { return set.lines[i].opening; };
@@ -176,7 +164,7 @@ std::vector<double> heights_of_isotropy(const RaySet& set, std::span<const doubl
         if (!rays.inside_fan(i)) front[i] = isotropic_height(rays, i, heights, opening(i));
     fill_fans(set, front);
     if (uses("raise_over_fans")) raise_to(heights_over_fans(rays, front.size()), slope_beside_fans, set, rays, front);
-    if (!least.empty()) raise_to(reachable_heights(least, rays, fineness), slope_beside_least, set, rays, front);
+    if (!least.empty()) raise_to({least.begin(), least.end()}, slope_beside_least, set, rays, front);
     end_wakes();
     if (uses("round_kinks")) round_kinks(rays, front);
     for (std::size_t i = 0; i < front.size(); ++i)
@@ -196,7 +184,7 @@ std::vector<double> largest_spacings(const RaySet& set, std::span<const double> 
     for (std::size_t i = 0; i < spacings.size(); ++i)
         for (const std::size_t j : {rays.previous(i), rays.next(i)})
             if (rays.same_origin(i, j))
-                spacings[i] = std::min(spacings[i], max_tallness_in_fans * rays.between(i, j, front[i]));
+                spacings[i] = std::min(spacings[i], max_tallness * rays.between(i, j, front[i]));
     for (std::size_t i = 0; i < spacings.size(); ++i)
         spacings[i] = std::max({spacings[i], front[i] / (fineness * max_layers_beyond_isotropy), first_heights[i]});
     return spacings;

@@ -15,10 +15,9 @@ inline constexpr double min_adaptive_ratio = 1.05, max_adaptive_ratio = 1.5;
 /// Returns, for each ray, the height at which the spacing of the layers reaches the distance of the rays there, or the
 /// height of all layers where none does; the height of one layer at least. It varies smoothly along the walls.
 /// heights[n] is the height of layer n; heights[0] = 0. `least` holds one height per ray, or nothing; the heights
-/// returned are no lower, but for the rounding of kinks and over walls with short edges. `fineness` is that of
-/// LayerGrowth.
+/// returned are no lower, but for the rounding of kinks.
 std::vector<double> heights_of_isotropy(const RaySet& set, std::span<const double> heights,
-                                        std::span<const double> least = {}, double fineness = 1);
+                                        std::span<const double> least = {});
 
 /// Returns, for each ray, the largest height of a layer on the way to the front: some widths of a cell, but no less
 /// than the first height along it.

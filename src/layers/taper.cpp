@@ -27,7 +27,6 @@
 #include "layers/layered_rays.hpp"
 #include "layers/mechanisms.hpp"
 #include "layers/neighbours.hpp"
-#include "layers/rows.hpp"
 
 namespace lamina::layers {
 
@@ -44,8 +43,6 @@ constexpr double least_sine = 0.1, sine_of_upright = 1;
 /// many times as high as wide, the ends of the column differ by less than a third of a cell. But those of narrow
 /// columns near them become no higher for it than the second number of times.
 constexpr double even_tallness = 0.86, most_tallness = 1.2;
-/// Faces between columns become shorter, and as much more skewed where rows turn at a ray, up to this.
-constexpr double largest_skewness = 0.8;
 /// The heights of so many last layers change.
 constexpr double tapered_layers = 30;
 /// Where neighbours are not tapered alike, rows rise by this much per unit of distance at most. Points move by up to 4
@@ -54,8 +51,6 @@ constexpr double most_rise = 0.25, most_moved = 4.0 / 27;
 /// A last layer higher than this share of the part that changes stays as it is: fewer than three layers have no room for
 /// others.
 constexpr double highest_last = 0.37;
-/// A taper that would cross cells comes nearer to 1 by this share at a time, and is 1 from that distance on.
-constexpr double taken_back = 0.3, nearly_one = 0.05;
 
 /// Returns the first layer from which on heights change.
 std::size_t first_tapered(std::span<const double> heights) {
@@ -71,11 +66,10 @@ double taper_of_flat_end(double last) { return last * (2 - last); }
 
 /// How far the column of a ray should be tapered, and how far it may be.
 struct TaperBounds {
-    double part = 0;         ///< length of the part of the column that changes
-    double wanted = 1;       ///< taper with which the last layer is as high as wanted
-    double least = 0;        ///< taper below which it would be too low, or faces too skewed
-    double even = 0;         ///< taper with which the ends of columns beside are even, where numbers of layers change
-    double most = HUGE_VAL;  ///< taper above which it would be too high for the triangles beyond
+    double part = 0;                 ///< length of the part of the column that changes
+    double wanted = 1;               ///< taper with which the last layer is as high as wanted
+    double least = 0;                ///< taper below which it would be too low
+    double most = HUGE_VAL;          ///< taper above which it would be too high for the triangles beyond
     double lowest = 1, highest = 1;  ///< what the column has room for, whatever its neighbours want
 };
 
@@ -93,28 +87,21 @@ double height_of_square(Point edge, Point direction, double lowest_sine) {
 
 /// Returns the bounds for a ray between these two others.
 TaperBounds taper_bounds(const LayeredRays& rays, std::size_t before, std::size_t ray, std::size_t after, bool quads) {
-    const std::uint32_t n = rays.counts[ray], common = std::min({rays.counts[before], n, rays.counts[after]});
-    if (n < 2 || common == 0) return {};
+    const std::uint32_t n = rays.counts[ray], least_beside = std::min(rays.counts[before], rays.counts[after]);
+    if (n < 2 || least_beside == 0) return {};
     const std::span<const double> heights = rays.heights.of(ray).first(n + std::size_t{1});
     const double last = rays.last_spacing(ray);
     const Point tip = rays.tip(ray), direction = rays.set.lines[ray].direction;
     const double sine = quads ? sine_of_upright : least_sine;
     const double square = std::sqrt(height_of_square(rays.tip(before) - tip, direction, sine) *
                                     height_of_square(rays.tip(after) - tip, direction, sine));
-    const auto row = [&](std::size_t from, std::size_t to) {
-        return row_between(rays.set.lines[from], rays.heights.of(from)[common], rays.set.lines[to],
-                           rays.heights.of(to)[common]);
-    };
-    const double skewness = skewness_between(row(before, ray), row(ray, after), last);
     const bool changes = rays.counts[before] != n || rays.counts[after] != n;
     const double part = heights[n] - heights[first_tapered(heights)];
     if (last > highest_last * part) return {};
     const double lowest = std::max(taper_of_flat_end(last / part), least_taper);
     return {.part = part,
             .wanted = std::clamp(wanted_tallness * square / last, lowest, 1.0),
-            .least = std::max(std::min(least_tallness * square / last, most_taper),
-                              std::min(skewness / largest_skewness, 1.0)),
-            .even = changes ? std::min(even_tallness * square / last, most_taper) : 0,
+            .least = std::min((changes && !quads ? even_tallness : least_tallness) * square / last, most_taper),
             .most = most_tallness * square / last,
             .lowest = lowest,
             .highest = most_taper};
@@ -124,24 +111,23 @@ TaperBounds taper_bounds(const LayeredRays& rays, std::size_t before, std::size_
 std::vector<double> tapers(const LayeredRays& rays, bool quads) {
     const RayNeighbours neighbours(rays.set);
     std::vector<TaperBounds> bounds;
-    std::vector<double> wanted, most, least, even;  // the latter two negative, so that lowering them raises the bound
+    std::vector<double> wanted, most, least;  // the latter negative, so that lowering it raises the bound
     for (std::size_t i = 0; i < rays.counts.size(); ++i) {
         bounds.push_back(taper_bounds(rays, neighbours.previous[i], i, neighbours.next[i], quads));
         wanted.push_back(bounds.back().wanted);
         most.push_back(bounds.back().most);
         least.push_back(-bounds.back().least);
-        even.push_back(-bounds.back().even);
     }
     // All lead over to the neighbours, so that no taper jumps where one of them gives way to another.
-    for (std::vector<double>* values : {&wanted, &most, &least, &even})
+    for (std::vector<double>* values : {&wanted, &most, &least})
         lower_to_neighbours(rays.set, *values, [&](std::size_t from, std::size_t to) {
             const double part = std::max(bounds[from].part, bounds[to].part);
             if (!(part > 0)) return HUGE_VAL;
             return (*values)[from] + most_rise * distance(rays.tip(from), rays.tip(to)) / (most_moved * part);
         });
     for (std::size_t i = 0; i < wanted.size(); ++i) {
-        // Neither low cells of wide columns nor skewed faces may make cells of narrow ones too high.
-        const double lowest = quads ? -least[i] : std::min(std::max(-least[i], -even[i]), most[i]);
+        // Low cells of wide columns may not make cells of narrow ones too high.
+        const double lowest = std::min(-least[i], most[i]);
         wanted[i] = std::clamp(std::max(wanted[i], lowest), bounds[i].lowest, bounds[i].highest);
     }
     return wanted;
@@ -173,23 +159,15 @@ bool has_crossed_cell(const LayeredRays& rays, std::size_t i, std::size_t j) {
     return !(core::inline_orient2d(rays.point(i, common), top, rays.point(j, common)) > 0);
 }
 
-/// Takes back a part of the tapers on both sides of columns with crossed cells: rows rise most where a column is narrower
-/// than at the front. Columns without tapers have no such cells. Returns whether there were any.
-bool take_back_in_crossed_columns(const LayeredRays& rays, std::vector<double>& tapers) {
+/// Leaves the columns on both sides of crossed cells as they were: rows rise most where a column is narrower than at the
+/// front. Columns without tapers have no such cells. Returns whether there were any.
+bool leave_crossed_columns(const LayeredRays& rays, std::vector<double>& tapers) {
     const std::vector<std::size_t> next = rays.set.following();
-    std::vector<char> crossed(next.size());
-    bool any = false;
-    for (std::size_t i = 0; i < next.size(); ++i) {
-        if ((tapers[i] == 1 && tapers[next[i]] == 1) || !has_crossed_cell(rays, i, next[i])) continue;
-        crossed[i] = crossed[next[i]] = 1;
-        any = true;
-    }
-    for (std::size_t i = 0; i < next.size(); ++i) {
-        if (!crossed[i]) continue;
-        const double off = tapers[i] - 1;
-        tapers[i] = std::abs(off) > nearly_one ? 1 + (1 - taken_back) * off : 1;
-    }
-    return any;
+    std::vector<std::size_t> crossed;
+    for (std::size_t i = 0; i < next.size(); ++i)
+        if ((tapers[i] != 1 || tapers[next[i]] != 1) && has_crossed_cell(rays, i, next[i])) crossed.push_back(i);
+    for (const std::size_t i : crossed) tapers[i] = tapers[next[i]] = 1;
+    return !crossed.empty();
 }
 
 }  // namespace
@@ -212,7 +190,7 @@ void taper_columns(Rays& rays) {
     std::vector<double> wanted = tapers(layered_rays(rays), rays.topology == LayerTopology::quads);
     do {
         rays.heights = tapered_heights(untapered, rays.counts, wanted);
-    } while (take_back_in_crossed_columns(layered_rays(rays), wanted));
+    } while (leave_crossed_columns(layered_rays(rays), wanted));
 }
 
 }  // namespace lamina::layers
