@@ -107,7 +107,7 @@ void fit_first_layers(Rays& rays) {
     constexpr double below_limit = 0.999;  // so that rounding does not take the layer away
     const std::vector<double> first = first_heights_along(rays.set, rays.growth);
     lower_first_layers(rays, [&](std::size_t i) {
-        const double room = first_layer_room * rays.limits[i];
+        const double room = first_layer_room * rays.front[i];
         return room < first[i] ? below_limit * room / first[i] : 1;
     });
 }

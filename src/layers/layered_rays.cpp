@@ -14,13 +14,26 @@
 
 namespace lamina::layers {
 
+namespace {
+
+/// Returns the largest heights along the rays, at most those asked for and the limits, that rise by no more than a slope.
+std::vector<double> bounded_heights(const Rays& rays) {
+    std::vector<double> heights(rays.asked);
+    for (std::size_t i = 0; i < heights.size(); ++i) heights[i] = std::min(heights[i], rays.limits[i]);
+    // A requested number of layers is kept on every ray where nothing is in the way of any.
+    if (!rays.growth.layers || heights != rays.asked) bound_slopes(rays.set, heights);
+    return heights;
+}
+
+}  // namespace
+
 LayeredRays layered_rays(const Rays& rays) { return {rays.set, rays.heights, rays.counts}; }
 
 void measure_room(Rays& rays) {
     set_slants(rays.set);
     rays.asked = asked_heights(rays.set, rays.growth);
     rays.limits = height_limits(rays.set, rays.asked);
-    rays.front = front_heights(rays);
+    rays.front = bounded_heights(rays);
 }
 
 bool replace_rays(RaySet changed, Rays& rays) {
@@ -31,11 +44,8 @@ bool replace_rays(RaySet changed, Rays& rays) {
 }
 
 std::vector<double> front_heights(const Rays& rays) {
-    std::vector<double> front(rays.asked);
-    for (std::size_t i = 0; i < front.size(); ++i) front[i] = std::min(front[i], rays.limits[i]);
-    // A requested number of layers is kept on every ray where nothing is in the way of any.
-    if (rays.growth.layers && front == rays.asked) return front;
-    bound_slopes(rays.set, front);
+    std::vector<double> front = bounded_heights(rays);
+    // Lowered limits take no first layer away from rays beside.
     const std::vector<double> first = first_heights_along(rays.set, rays.growth);
     for (std::size_t i = 0; i < front.size(); ++i) {
         const double room_of_first = std::min(first[i], first_layer_room * rays.limits[i]);
