@@ -21,9 +21,6 @@ namespace lamina::layers {
 
 namespace {
 
-/// The transition to isotropic triangles lies where the spacing is this many times the distance of the rays
-/// (docs/decisions/0010).
-constexpr double transition_aspect = 1;
 /// Where rays spread, their distance counts up to this many times that at the wall: with slow growth, layers between
 /// spreading rays never become as high as wide.
 constexpr double max_spread = 2;
@@ -123,7 +120,7 @@ double isotropic_height(const RayDistances& rays, std::size_t ray, std::span<con
     double lacking_below = 0;  // distance of the rays minus spacing, in the layer below
     for (std::size_t n = 1; n < heights.size(); ++n) {
         const double below = opening * heights[n - 1], height = opening * heights[n], spacing = height - below;
-        const double lacking = transition_aspect * rays.to_neighbours(ray, height) - spacing;
+        const double lacking = rays.to_neighbours(ray, height) - spacing;
         if (lacking <= 0) return n == 1 ? height : below + spacing * (lacking_below / (lacking_below - lacking));
         lacking_below = lacking;
     }
@@ -199,7 +196,7 @@ std::vector<double> ratios_to_isotropy(const RaySet& set, double first_height, s
         ratios[i] = bisect(min_adaptive_ratio, max_adaptive_ratio, [&](double ratio) {
             const double last = first_height * whole_power(ratio, layers - 1);
             const double height = (last * ratio - first_height) / (ratio - 1);
-            return last <= transition_aspect * rays.to_neighbours(i, height);
+            return last <= rays.to_neighbours(i, height);
         });
     }
     fill_fans(set, ratios);

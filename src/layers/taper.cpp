@@ -1,5 +1,5 @@
 // Columns at sharp edges and bases are narrow up to the front, where triangles begin that are as small as columns are
-// wide. Numbers of layers may not change there (narrow_columns.cpp), so that last layers are higher than columns are
+// wide. Numbers of layers change little there (numbers.cpp), so that last layers are higher than columns are
 // wide. They are made lower at the expense of those in the middle of the column:
 //
 //      |___|        |___|  <- front, as before
