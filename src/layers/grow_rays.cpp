@@ -102,7 +102,7 @@ bool lower_first_layers(Rays& rays, Share share) {
     return changed;
 }
 
-/// Gives rays without room for a first layer a lower one.
+/// Gives rays without room for a first layer a lower one, and first layers the room that they may take.
 void fit_first_layers(Rays& rays) {
     constexpr double below_limit = 0.999;  // so that rounding does not take the layer away
     const std::vector<double> first = first_heights_along(rays.set, rays.growth);
@@ -110,6 +110,8 @@ void fit_first_layers(Rays& rays) {
         const double room = first_layer_room * rays.front[i];
         return room < first[i] ? below_limit * room / first[i] : 1;
     });
+    for (std::size_t i = 0; i < first.size(); ++i)
+        rays.limits[i] = std::max(rays.limits[i], std::min(first[i], first_layer_room * rays.front[i]));
 }
 
 /// Counts the layers. Where fronts meet, rays that are left without any get first layers half as high, so that no wall

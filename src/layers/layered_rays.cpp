@@ -48,8 +48,7 @@ std::vector<double> front_heights(const Rays& rays) {
     // Lowered limits take no first layer away from rays beside.
     const std::vector<double> first = first_heights_along(rays.set, rays.growth);
     for (std::size_t i = 0; i < front.size(); ++i) {
-        const double room_of_first = std::min(first[i], first_layer_room * rays.limits[i]);
-        front[i] = std::min(std::max(front[i], room_of_first), rays.asked[i]);
+        front[i] = std::min(std::max(front[i], std::min(first[i], rays.limits[i])), rays.asked[i]);
     }
     return front;
 }
