@@ -8,8 +8,9 @@
 
 namespace lamina::layers {
 
-/// Returns the number of layers on each ray: those of its column, lowered until neighbours differ by at most one, every cell between neighbouring rays is positively oriented, and the fronts are simple,
-/// disjoint from each other and, except at rays without layers, from the walls.
+/// Returns the number of layers on each ray: those of its column, lowered until neighbours differ by at most one, every
+/// cell between neighbouring rays is positively oriented, and the fronts are simple, disjoint from each other and, except
+/// at rays without layers, from the walls.
 std::vector<std::uint32_t> layer_counts(const RaySet& set, const LayerHeights& heights);
 
 }  // namespace lamina::layers

@@ -49,8 +49,8 @@ void require_sensible_scale(const Box& box, const LayerGrowth& growth, std::span
 }
 
 /// Returns the height of all layers at each vertex of an outline: the largest of its rays.
-std::vector<double> front_heights(std::span<const RayVertex> outline, std::span<const RayLine> rays,
-                                  const LayerGrowth& growth) {
+std::vector<double> heights_at_vertices(std::span<const RayVertex> outline, std::span<const RayLine> rays,
+                                        const LayerGrowth& growth) {
     RaySet set{{rays.begin(), rays.end()}, {0, rays.size()}};
     set_slants(set);
     const std::vector<double> asked = asked_heights(set, growth);
@@ -76,7 +76,8 @@ RaySet rays_of(const Geometry& geometry, std::span<const DividedWake> wakes, con
         if (kind == OutlineKind::jagged && !options.fan_rays) leave_out_sharp_corners(own.first_height, outline);
         if (!own.least_heights.empty()) set_least_heights(own.least_heights, outline);
         const std::vector<RayLine> upright = make_rays(outline, kind, options, own);
-        const std::vector<RayLine> rays = make_rays(outline, kind, options, own, front_heights(outline, upright, own));
+        const std::vector<RayLine> rays =
+            make_rays(outline, kind, options, own, heights_at_vertices(outline, upright, own));
         set.lines.insert(set.lines.end(), rays.begin(), rays.end());
         set.begin.push_back(set.lines.size());
     }

@@ -47,9 +47,8 @@ std::vector<double> front_heights(const Rays& rays) {
     std::vector<double> front = bounded_heights(rays);
     // Lowered limits take no first layer away from rays beside.
     const std::vector<double> first = first_heights_along(rays.set, rays.growth);
-    for (std::size_t i = 0; i < front.size(); ++i) {
+    for (std::size_t i = 0; i < front.size(); ++i)
         front[i] = std::min(std::max(front[i], std::min(first[i], rays.limits[i])), rays.asked[i]);
-    }
     return front;
 }
 

@@ -15,10 +15,10 @@ struct LayeredRays {
     const LayerHeights& heights;
     std::span<const std::uint32_t> counts;
 
-    /// Returns the point at the top of a layer, with all heights multiplied by `scale`; the ray's origin for layer 0.
-    Point point(std::size_t ray, std::uint32_t layer, double scale = 1) const {
+    /// Returns the point at the top of a layer; the ray's origin for layer 0.
+    Point point(std::size_t ray, std::uint32_t layer) const {
         const RayLine& line = set.lines[ray];
-        return layer == 0 ? line.origin : line.origin + scale * (heights.of(ray)[layer] * line.direction + line.shift);
+        return layer == 0 ? line.origin : line.origin + (heights.of(ray)[layer] * line.direction + line.shift);
     }
     /// Returns the height of the last layer on a ray; 0 where it has none.
     double last_spacing(std::size_t ray) const {
@@ -26,7 +26,7 @@ struct LayeredRays {
         return n > 0 ? heights.of(ray)[n] - heights.of(ray)[n - 1] : 0;
     }
     /// Returns the end of a ray.
-    Point tip(std::size_t ray, double scale = 1) const { return point(ray, counts[ray], scale); }
+    Point tip(std::size_t ray) const { return point(ray, counts[ray]); }
 };
 
 /// Returns the rays with their columns.

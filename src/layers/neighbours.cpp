@@ -1,8 +1,6 @@
 // The neighbours of rays, and limits on how much they differ.
 #include "layers/neighbours.hpp"
 
-#include <cmath>
-
 namespace lamina::layers {
 
 RayNeighbours::RayNeighbours(const RaySet& set) : next(set.following()), previous(next.size()) {
@@ -13,14 +11,6 @@ WallNeighbours wall_neighbours(const RayLine& before, const RayLine& ray, const 
     return {before.corner_after.empty() ? before.origin : before.corner_after.back(),
             ray.corner_after.empty() ? after.origin : ray.corner_after.front()};
 }
-
-double tangent_of_lean(const RayLine& from, const RayLine& to) {
-    const Point edge = to.origin - from.origin, direction = from.direction + to.direction;
-    const double across = std::abs(cross(edge, direction));
-    return across > 0 ? dot(edge, direction) / across : 0;
-}
-
-double max_row_slope(double lean) { return std::max((1 - lean) / (1 + lean), 0.0); }
 
 void bound_slopes(const RaySet& set, std::vector<double>& heights) {
     lower_to_neighbours(set, heights, [&](std::size_t from, std::size_t to) {

@@ -25,14 +25,6 @@ struct WallNeighbours {
 /// Returns the wall's vertices beside a ray between these two others.
 WallNeighbours wall_neighbours(const RayLine& before, const RayLine& ray, const RayLine& after);
 
-/// Returns the tangent of the angle by which two rays lean from the normal of the line between their origins, towards
-/// that of `to`; 0 for rays of one origin.
-double tangent_of_lean(const RayLine& from, const RayLine& to);
-
-/// Returns the largest slope of rows against the wall between rays that lean: rows and rays together are off a right
-/// angle by 45 degrees at most. `lean`, 0 or more, is the tangent of what rays lean by; 0 where that is as much.
-double max_row_slope(double lean);
-
 /// Lowers values along each element until none exceeds bound(neighbour, ray). Goes twice round each element in both
 /// directions. Precondition: the bound is never below the neighbour's own value.
 template <class T, class Bound>
