@@ -50,7 +50,7 @@ Region naca_layer(std::size_t n) {
     options.layers = 30;
     Geometry geometry;
     geometry.elements.push_back(naca_airfoil("0012", n / 32));
-    Layer layer = close_border(grow_rays(geometry, options));
+    Layer layer = make_layer(geometry, options);
     return {std::move(layer.points), std::move(layer.edges.region)};
 }
 

@@ -5,7 +5,6 @@
 #include <benchmark/benchmark.h>
 
 #include <lamina/pipeline.hpp>
-
 #include "paired.hpp"
 #include "thesis_case.hpp"
 
@@ -32,7 +31,7 @@ Work triangle_outside_the_layer(const CaseOptions& options) {
     const LayerGrowth growth = layer_growth(options.layer, {});
     const Geometry geometry = prepare_surfaces(read_geometry(input), options.surface, spacing_limits(options, growth));
     const FarField far_field = place_far_field(bounding_box(geometry), 1, options.far_field);
-    const Layer layer = close_border(grow_rays(geometry, options.layer, growth), border_options(options, 1, {}));
+    const Layer layer = make_layer(geometry, options.layer, growth, border_options(options, 1, {}));
     const SizeField field = make_size_field(border_loops(layer), {}, options.sizing, 1, far_field.box());
     const Decoupling outer = decouple(layer.points, layer.borders, field, far_field);
 

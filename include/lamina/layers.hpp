@@ -1,5 +1,5 @@
-// Stages "grow rays", "close the border" and "fill the layer". They make the layer, the anisotropic region next to the
-// walls: grow_rays() -> Rays, close_border() -> Layer, fill_layer() -> LayerCells.
+// Stages "make the layer" and "fill the layer". The layer is the anisotropic region next to the walls:
+// make_layer() -> Layer, fill_layer() -> LayerCells.
 // Source: J. K. Pardue, thesis (2015), chapters 3 and 4.
 #pragma once
 
@@ -72,7 +72,7 @@ struct LayerOptions {
     /// to the neighbouring rays.
     std::optional<std::uint32_t> layers{};
     std::optional<Length> thickness{};  ///< height above the wall beyond which no layer goes; T of the exponential law
-    /// Largest angle between neighbouring rays. On jagged walls (Rays::jagged) it may be max_jagged_ray_angle_deg, in
+    /// Largest angle between neighbouring rays. On jagged walls (Layer::jagged) it may be max_jagged_ray_angle_deg, in
     /// fans that are cut short max_low_fan_angle_deg, and more where rays converge.
     double max_ray_angle_deg = 5;
     CornerRays corners = CornerRays::fan;  ///< the rays at sharp convex corners
@@ -168,140 +168,6 @@ enum class RayPlace : std::uint8_t {
     wake_end,  ///< at the end of a wake, where no layers are left
 };
 
-/// The origin and the direction of a ray.
-struct RayLine {
-    Point origin;                     ///< a point of the wall, or of a wake
-    Point direction;                  ///< unit vector
-    RayPlace place = RayPlace::wall;  ///< where it stands
-    /// Its first height over the one wanted: above 1 along wakes, below 1 where a wall has no room
-    /// (docs/layer.md).
-    double opening = 1;
-    double least_height = 0;  ///< that of its column: LayerGrowth::least_heights or WakePoint
-    /// Height along the ray over the height above the wall's edges beside it, which the growth law gives: 1 for a ray
-    /// along their normals, 1.41 for one out of a cove corner of 90 degrees; at most max_slant.
-    double slant = 1;
-    /// All points of its layers lie beside the line by this vector, so that the first layer has its height above both
-    /// edges at a corner out of which the ray leans; zero elsewhere (docs/layer.md).
-    Point shift{};
-    /// The wall's vertices between this ray and the next one, in their order: a sharp concave corner and those so near
-    /// to it that no first layer fits between its sides. They have no rays. Empty elsewhere (docs/layer.md).
-    std::vector<Point> corner_after{};
-};
-
-/// A stretch makes a column of layers end at a given height: layer n > above is `factor` to the power of n - above
-/// times as high as the growth law makes it, and layers up to `above` keep their heights.
-struct Stretch {
-    double factor = 1;        ///< within max_stretch of 1; 1 where nothing is stretched
-    std::uint32_t above = 0;  ///< at least 1 where anything is stretched: the first layer never is
-};
-
-/// The column of heights on one ray: a part of LayerHeights::table().
-struct HeightColumn {
-    std::size_t first = 0;           ///< index in the table where the column begins
-    std::uint32_t layers = 0;        ///< number of layers up to the front
-    std::uint32_t asked_layers = 0;  ///< number of layers up to the asked height
-    bool cut = false;                ///< whether the front is lower than the asked height
-    double growth = 0;               ///< as Ray::growth
-    Stretch stretch{};               ///< as Ray::stretch
-    double max_spacing = HUGE_VAL;   ///< as Ray::max_spacing
-    double taper = 1;                ///< as Ray::taper
-};
-
-/// The heights of layers up to the front, ray by ray.
-class LayerHeights {
-public:
-    LayerHeights() = default;
-    /// Makes heights from a table and the column of each ray. Precondition: the columns lie within the table.
-    LayerHeights(std::vector<double> table, std::vector<HeightColumn> columns)
-        : table_(std::move(table)), columns_(std::move(columns)) {}
-
-    /// Returns the column of a ray.
-    const HeightColumn& column(std::size_t ray) const { return columns_[ray]; }
-    /// Returns the heights on a ray. Entry n is the height of layer n, and entry 0 is 0.
-    std::span<const double> of(std::size_t ray) const {
-        const HeightColumn& column = columns_[ray];
-        return {table_.data() + column.first, column.layers + std::size_t{1}};
-    }
-    /// Returns the heights of all columns, one column after the other.
-    const std::vector<double>& table() const { return table_; }
-
-private:
-    std::vector<double> table_;
-    std::vector<HeightColumn> columns_;
-};
-
-/// The rays of all elements, one element after the other. Element e owns the rays [begin[e], begin[e + 1]) in
-/// counter-clockwise order; the first one follows the last. An element with a wake begins at the left side of its
-/// trailing edge, and its last rays are those of the wake, out to its end and back. A sharp trailing edge then is the
-/// origin of a ray on either side; a base has no rays.
-struct LAMINA_EXPORT RaySet {
-    std::vector<RayLine> lines;         ///< the rays
-    std::vector<std::size_t> begin{0};  ///< the first ray of each element, then the number of rays
-
-    /// Returns the number of elements.
-    std::size_t elements() const { return begin.size() - 1; }
-    /// Returns, for each ray, the index of the ray that follows counter-clockwise round its element.
-    std::vector<std::size_t> following() const;
-};
-
-/// The space between a blunt base and the point behind it where both sides of a wake meet, cut into strips between
-/// chains of points that run from the right to the left of the flow.
-struct WakeCore {
-    std::size_t element = 0;                 ///< index of the element
-    std::vector<std::vector<Point>> chains;  ///< the first one is the base, the last one a point
-    /// Indices of the chains that end at stations, which are the origins of rays, ascending. The chains between have
-    /// the ends of the chain before.
-    std::vector<std::size_t> stations;
-};
-
-/// The rays and the number of layers on each. If the layer is disabled, each wall vertex has one ray without a
-/// direction and without layers.
-struct Rays {
-    RaySet set;                   ///< origins and directions
-    std::vector<char> resampled;  ///< one per element: Element::resampled
-    /// One per element: whether it is resampled between so many corners that it is not smooth, as iced ones are. Rays
-    /// stand at its vertices alone, lest neighbouring edges differ by whole factors (docs/layer.md).
-    std::vector<char> jagged;
-    bool enabled = true;  ///< LayerOptions::enabled
-    /// LayerOptions::topology. Last layers of quadrilaterals are not made higher where rays lean or numbers of layers
-    /// change, since faces between them would be more skewed for it (docs/layer.md). Tops of cells of the grid on
-    /// resampled walls stay whole where they are little longer than asked for: a point on a flat one makes an angle near
-    /// 180 degrees, where a Delaunay triangulation joins it to points farther below.
-    LayerTopology topology = LayerTopology::layered;
-    LayerGrowth growth;                 ///< the growth that was requested
-    std::vector<double> asked;          ///< height along each ray at which its layers are to end; empty if disabled
-    std::vector<double> limits;         ///< height beyond which something is in a ray's way; empty if disabled
-    std::vector<double> front;          ///< height at which the columns end, at most the asked one; empty if disabled
-    LayerHeights heights;               ///< the columns up to the front
-    std::vector<std::uint32_t> counts;  ///< number of layers on each ray
-    std::vector<double> wake_lengths;   ///< one per element: length of the wake with layers, 0 without
-    std::vector<WakeCore> cores;        ///< behind bases of elements whose layers go on along a wake
-};
-
-/// Grows rays from the walls: one along the normal of each vertex, fans at sharp corners and refining rays between
-/// them. Finds the limit of each ray and the number of layers that fit below it. Neighbouring rays differ by at most
-/// one layer, every cell between them is positively oriented, and the fronts are simple and disjoint. Precondition:
-/// check_simple(geometry). Throws OptionError for options out of range, for heights below the resolution of the
-/// coordinates and for layers absurdly thicker than the input is wide.
-LAMINA_EXPORT Rays grow_rays(const Geometry& geometry, const LayerOptions& options, const LayerGrowth& growth);
-
-/// Grows rays with the growth that the options request round this geometry; its extent in x is the chord.
-LAMINA_EXPORT Rays grow_rays(const Geometry& geometry, const LayerOptions& options = {});
-
-/// A circle.
-struct Circle {
-    Point middle;       ///< its middle
-    double radius = 0;  ///< in units of the input
-};
-
-/// Lowers the limits of the rays that end in one of these circles to a part of their heights, leads the limits over to
-/// those beside, and finds the numbers of layers anew. No rays are added where numbers of layers change. Returns, for
-/// each circle, how many rays with layers end in it.
-LAMINA_EXPORT std::vector<std::size_t> shorten_rays(std::span<const Circle> places, Rays& rays);
-
-/// Returns, for each element, its front: the closed polygon through the tips of its rays, counter-clockwise.
-LAMINA_EXPORT std::vector<std::vector<Point>> fronts(const Rays& rays);
-
 /// How the edges of the fronts are divided, which makes them outer borders. Borders are frozen afterwards, so they must
 /// suit refinement (docs/decisions/0003).
 struct BorderOptions {
@@ -310,7 +176,7 @@ struct BorderOptions {
     /// only where rounding would make division points cross something.
     double max_ratio = 1.4;
     /// No edge is longer than 1.1 x (length of any other edge) + gradation x distance, nor than 1.29 times that over a
-    /// cell of the grid on a resampled wall (Rays::topology).
+    /// cell of the grid on a resampled wall: a point on the top of a flat one makes an angle near 180 degrees.
     double gradation = 0.1;
     double max_edge = HUGE_VAL;  ///< largest length of an edge, in units of the input
     /// No edge is longer than size + gradation x distance of any of these sources. An edge may exceed that by up to a
@@ -321,40 +187,19 @@ struct BorderOptions {
 /// Throws OptionError where an option is out of range.
 LAMINA_EXPORT void validate(const BorderOptions& options);
 
-/// Layers on a ray that leaves the wall's edges at an angle are at most this many times as high along the ray as above
-/// the edges.
-inline constexpr double max_slant = 2;
-
-/// The growth of layers that are stretched differs from the requested growth by at most this factor.
-inline constexpr double max_stretch = 1.06;
-
 /// A line of layer points that leaves the wall.
 struct Ray {
-    VertexId origin;          ///< wall vertex, or vertex of a wake
-    Point direction;          ///< unit vector
-    std::uint32_t layers;     ///< number of layers made; less than requested where the ray is cut short
-    std::uint32_t requested;  ///< number of layers requested
-    double growth;            ///< r of GrowthLaw on this ray; e^(a/N) for the exponential law
-    std::size_t first_point;  ///< Layer::points[first_point + n] lies at the top of layer n + 1
-    double height_limit;      ///< no point lies beyond this height; infinite where nothing is in the way
-    /// Rays with all the layers of a requested number are not stretched. The upper halves of others are, so that they
-    /// end at the limit or, where no number is requested, at the height of isotropy.
-    Stretch stretch{};
-    /// Height along the ray over the height above the wall's edges beside it, which the growth law gives: 1 for a ray
-    /// along their normals, 1.41 for one out of a cove corner of 90 degrees; at most max_slant.
-    double slant = 1;
-    /// No layer is higher than this, before it is stretched, where the column goes on beyond isotropy
-    /// (LayerGrowth::least_heights); infinite elsewhere.
-    double max_spacing = HUGE_VAL;
-    RayPlace place = RayPlace::wall;  ///< RayLine::place
-    /// The first height on this ray over the one wanted, and that of each layer above: they open along wakes, and are
-    /// lower where a wall has no room.
-    double opening = 1;
-    /// The height of the last layer over that which it would have otherwise, 0.1 to 2. Those below move so that the
-    /// ray keeps its end (docs/layer.md). 1 where a number of layers is requested.
-    double taper = 1;
-    Point shift{};                         ///< RayLine::shift
-    std::vector<VertexId> corner_after{};  ///< the vertices of RayLine::corner_after
+    VertexId origin;                  ///< wall vertex, or vertex of a wake
+    Point direction;                  ///< unit vector
+    std::uint32_t layers;             ///< number of layers made; less than requested where the ray is cut short
+    std::uint32_t requested;          ///< number of layers requested
+    double growth;                    ///< r of GrowthLaw on this ray; e^(a/N) for the exponential law
+    std::size_t first_point;          ///< Layer::points[first_point + n] lies at the top of layer n + 1
+    double height_limit;              ///< no point lies beyond this height; infinite where nothing is in the way
+    RayPlace place = RayPlace::wall;  ///< where it stands
+    /// The wall's vertices between this ray and the next one: a sharp concave corner and those so near to it that no first
+    /// layer fits between its sides. They have no rays. Empty elsewhere.
+    std::vector<VertexId> corner_after{};
 
     /// Returns the vertex at the top of layer n; the wall vertex for n = 0. Precondition: n <= layers.
     VertexId vertex(std::uint32_t n) const { return n == 0 ? origin : VertexId(first_point + n - 1); }
@@ -396,11 +241,14 @@ struct LayerEdges {
     std::vector<Segment> interfaces;
 };
 
-/// A WakeCore with the vertices of its points.
+/// The space between a blunt base and the point behind it where both sides of a wake meet, cut into strips between
+/// chains of points that run from the right to the left of the flow.
 struct LayerCore {
-    std::size_t element = 0;                    ///< as WakeCore::element
-    std::vector<std::vector<VertexId>> chains;  ///< as WakeCore::chains
-    std::vector<std::size_t> stations;          ///< as WakeCore::stations
+    std::size_t element = 0;                    ///< index of the element
+    std::vector<std::vector<VertexId>> chains;  ///< the first one is the base, the last one a point
+    /// Indices of the chains that end at stations, which are the origins of rays, ascending. The chains between have
+    /// the ends of the chain before.
+    std::vector<std::size_t> stations;
 };
 
 /// The end of a cleft, where a strip of triangles joins the fronts on both sides of a sharp corner.
@@ -438,19 +286,25 @@ struct Layer {
     std::vector<LayerCore> cores;           ///< the spaces behind bases, parts of the layer
     std::vector<LayerCleft> clefts;         ///< those that are closed, parts of the layer, in the order of the rays
     LayerEdges edges;                       ///< layer_edges() of this layer
-    std::vector<char> jagged{};             ///< Rays::jagged
+    std::vector<char>
+        jagged{};  ///< one per element: whether it is resampled between so many corners that it is not smooth
 };
 
 /// Returns the edges of the walls and borders of a layer: Layer::edges.
 LAMINA_EXPORT LayerEdges layer_edges(const Layer& layer);
 
-/// Returns the spacings of resampled walls with which their fronts would need no division by these options, wherever
-/// they need one: limits for the stage "prepare" (docs/decisions/0017). Throws OptionError for options out of range.
-LAMINA_EXPORT std::vector<WallSpacing> wall_spacings(const Rays& rays, const BorderOptions& options);
+/// Makes the layer of these walls. From each vertex of the wall one ray leaves along the normal; sharp corners have fans or
+/// refining rays. Each ray gets the layers that fit before something is in its way. Neighbouring rays differ by at most one
+/// layer, every cell between them is positively oriented, and the fronts are simple and disjoint. The fronts are divided and
+/// become outer borders that can be frozen. Precondition: check_simple(geometry). Throws OptionError for options out of range,
+/// for heights below the resolution of the coordinates and for layers absurdly thicker than the input is wide.
+/// Source: J. K. Pardue, thesis (2015), chapter 3.
+LAMINA_EXPORT Layer make_layer(const Geometry& geometry, const LayerOptions& options, const LayerGrowth& growth,
+                               const BorderOptions& border = {});
 
-/// Places the points on the rays and divides the fronts, which become outer borders that can be frozen. Throws
-/// OptionError for options out of range.
-LAMINA_EXPORT Layer close_border(const Rays& rays, const BorderOptions& options = {});
+/// Makes the layer with the growth that the options request round this geometry; its extent in x is the chord.
+LAMINA_EXPORT Layer make_layer(const Geometry& geometry, const LayerOptions& options = {},
+                               const BorderOptions& border = {});
 
 /// Neighbouring columns end evenly where their ends differ in height by at most this share of a last cell.
 inline constexpr double even_border_step = 1.0 / 3;
@@ -499,22 +353,6 @@ struct LayerCells {
 /// layers are so thick that cells of the grid cross each other, all are those of LayerTopology::delaunay.
 LAMINA_EXPORT LayerCells fill_layer(const Layer& layer, LayerTopology topology,
                                     const DecompositionOptions& options = {});
-
-/// A cell of a layer with a large angle.
-struct ObtuseCell {
-    std::uint32_t column;  ///< LayerCells::triangle_column or quad_column
-    std::uint16_t layer;   ///< LayerCells::triangle_layer or quad_layer
-};
-
-/// Returns the cells of a layer that have an angle above this one, which is obtuse, but for those of columns with a ray
-/// that is nearer than its supplement to the walls on both sides: they cannot do without. Cells behind bases and of
-/// LayerTopology::delaunay have no columns, so none of them is found.
-LAMINA_EXPORT std::vector<ObtuseCell> obtuse_cells(const Layer& layer, const LayerCells& cells, double max_angle_deg);
-
-/// Lowers the limits of the rays beside these cells so that columns end below them, but for the first layer; leads the
-/// limits over to those beside, and finds the numbers of layers anew, as shorten_rays() does. Returns whether it
-/// changed any.
-LAMINA_EXPORT bool end_columns_below(std::span<const ObtuseCell> cells, Rays& rays);
 
 /// Returns the defects of a layer that was made with these options, one line each; empty: every promise above holds.
 /// Exact where a sign decides; O(n log n) in practice.

@@ -4,8 +4,7 @@
 //   read              geometry.hpp     read_geometry      files, NACA names            -> Geometry
 //   solve the flow    flow.hpp         solve_flow         if CaseOptions::use_flow     -> Flow
 //   prepare           surface.hpp      prepare_surfaces   kept, resampled or smoothed  -> Geometry
-//   grow rays         layers.hpp       grow_rays          normals, fans, heights       -> Rays
-//   close the border  layers.hpp       close_border       points, graded outer border  -> Layer
+//   make the layer    layers.hpp       make_layer         rays, heights, outer border  -> Layer
 //   size              sizing.hpp       make_size_field    border lengths, sources      -> SizeField h(x)
 //   decouple          decoupling.hpp   decouple           separators                   -> Decoupling, its Subdomains
 //   fill the layer    layers.hpp       fill_layer         Delaunay, or the grid        -> LayerCells
@@ -47,7 +46,7 @@ struct CaseOptions {
     GeometryOptions geometry{};            ///< read_geometry()
     FlowConditions conditions{};           ///< reference_conditions(): the chord that lengths count, and y+
     SurfaceOptions surface{};              ///< prepare_surfaces()
-    LayerOptions layer{};                  ///< grow_rays(), fill_layer()
+    LayerOptions layer{};                  ///< make_layer(), fill_layer()
     SizingOptions sizing{};                ///< gather_size_requests(), make_size_field()
     FarFieldOptions far_field{};           ///< place_far_field()
     DecouplingOptions decoupling{};        ///< decouple()
@@ -94,14 +93,9 @@ LAMINA_EXPORT CaseOptions refined(const CaseOptions& options, double ratio, cons
 LAMINA_EXPORT SpacingLimits spacing_limits(const CaseOptions& options, const LayerGrowth& growth);
 
 /// Returns the options by which the outer border of the layer is divided to suit sizes and refinement: an argument of
-/// close_border(). `chord` is the reference chord.
+/// make_layer(). `chord` is the reference chord.
 LAMINA_EXPORT BorderOptions border_options(const CaseOptions& options, double chord,
                                            std::span<const SizeSource> sources);
-
-/// Returns the same for spacings of the walls below that border, which grow no more slowly than sizes near bodies
-/// should: an argument of wall_spacings().
-LAMINA_EXPORT BorderOptions wall_border_options(const CaseOptions& options, double chord,
-                                                std::span<const SizeSource> sources);
 
 /// Returns the bodies in the form that the sizing stage takes.
 LAMINA_EXPORT SizedBodies sized_bodies(const Geometry& geometry, const ReferenceConditions& conditions);

@@ -12,15 +12,15 @@
 #include "core/box_tree.hpp"
 #include "core/segments.hpp"
 #include "layers/growth_laws.hpp"
-#include "layers/least_heights.hpp"
-#include "layers/stretch.hpp"
-#include "layers/taper.hpp"
+#include "layers/stages.hpp"
 
 namespace lamina::layers {
 
 namespace {
 
 constexpr std::size_t max_findings = 20;
+/// Where a column is stretched to end at the front, growths differ from those of the law by this factor at most.
+constexpr double max_change_of_growth = 3;
 
 /// A directed edge of a wall or border.
 struct ElementEdge {
@@ -187,35 +187,47 @@ private:
         }
     }
 
-    /// Checks that the points of a ray lie at the heights of its law, stretched by no more than max_stretch, and below
-    /// its limit. `growth` is that on its element.
+    /// Checks that the points of a ray lie on it, below its limit, and that its spacings grow as the law says: exactly where
+    /// it has all layers of a requested number, up to the middle one also where the column goes on beyond isotropy with
+    /// spacings of one height, and above it with a stretch. `growth` is that on its element.
     void check_heights(const Ray& ray, const LayerGrowth& growth) {
         const Point origin = at(ray.origin);
-        const double rounding = 4e-16 * (std::abs(origin.x) + std::abs(origin.y));
         const GrowthLawEntry& law = growth_law_entry(options_.growth_law);
         if (law.by_spacing ? ray.growth < law.by_spacing->min_growth || ray.growth > law.by_spacing->max_growth
                            : ray.growth != law.ray_growth(growth))
             report("ray has not the growth of its law", origin);
-        std::vector<double> heights = law.heights(growth.first_height, ray.growth, ray.layers);
-        for (double& height : heights) height *= ray.slant * ray.opening;
-        limit_spacings(ray.max_spacing, heights);
-        stretch_heights(ray.stretch, heights);
-        taper_heights(ray.taper, heights);
-        if (!(ray.slant >= 1 && ray.slant <= max_slant))
-            report(fmt::format("ray has a slant of {}", ray.slant), origin);
-        if (ray.stretch.factor != 1 && std::isinf(ray.height_limit) && growth.layers)
-            report("ray is stretched without a limit", origin);
-        if (!(ray.stretch.factor <= max_stretch && ray.stretch.factor * max_stretch >= 1 - 1e-12))
-            report(fmt::format("ray is stretched by {}", ray.stretch.factor), origin);
-        if (!(ray.taper >= least_taper && ray.taper <= most_taper) || (ray.taper != 1 && growth.layers))
-            report(fmt::format("ray is tapered by {}", ray.taper), origin);
+        if (ray.layers == 0) return;
+        const std::vector<double> of_law = law.heights(growth.first_height, ray.growth, ray.layers);
+        const double rounding = 4e-16 * (std::abs(origin.x) + std::abs(origin.y));
+        const bool is_whole = growth.layers && std::isinf(ray.height_limit);
+        const Point first = at(ray.vertex(1));
+        double height = 0, spacing = 0;  // above the first layer, which is shifted at some corners
         for (std::uint32_t n = 1; n <= ray.layers; ++n) {
-            const VertexId v = ray.vertex(n);
-            if (distance(at(v), origin + (heights[n] * ray.direction + ray.shift)) > 1e-11 * heights[n] + rounding)
-                report(fmt::format("layer {} is not at its height", n), at(v));
-            if (layer_.layer_of_point[v.index()] != n) report("layer_of_point is wrong", at(v));
+            const Point p = at(ray.vertex(n));
+            if (layer_.layer_of_point[ray.vertex(n).index()] != n) report("layer_of_point is wrong", p);
+            if (n == 1) continue;
+            if (!is_on_line(p - first, ray.direction, rounding))
+                report(fmt::format("layer {} is not on its ray", n), p);
+            const double height_below = std::exchange(height, dot(p - first, ray.direction));
+            const double spacing_below = std::exchange(spacing, height - height_below);
+            if (n == 2) continue;
+            const double growth_of_law = (of_law[n] - of_law[n - 1]) / (of_law[n - 1] - of_law[n - 2]);
+            const double change = spacing / spacing_below / growth_of_law;
+            const double slack = 1e-9 + 8 * rounding / spacing_below;
+            const bool is_stretched = !is_whole && n > ray.layers / 2;
+            const double most = is_stretched ? max_change_of_growth : 1;
+            const double least = is_stretched ? 1 / max_change_of_growth
+                                 : is_whole   ? 1
+                                              : std::min(1.0, 1 / growth_of_law);
+            if (!(change >= least - slack && change <= most + slack))
+                report(fmt::format("the spacing of layer {} grows {} times as the law says", n, change), p);
         }
-        if (heights[ray.layers] > ray.height_limit * (1 + 1e-12)) report("ray is longer than its limit", origin);
+        if (height > ray.height_limit * (1 + 1e-12) + rounding) report("ray is longer than its limit", origin);
+    }
+
+    /// Returns whether a vector has this direction but for rounding.
+    static bool is_on_line(Point vector, Point direction, double rounding) {
+        return length(vector - dot(vector, direction) * direction) <= 1e-11 * length(vector) + rounding;
     }
 
     void check_cells() {

@@ -18,6 +18,7 @@
 #include "core/bounding_box.hpp"
 #include "core/segments.hpp"
 #include "layers/mechanisms.hpp"
+#include "layers/stages.hpp"
 #include "layers/strip.hpp"
 
 namespace lamina::layers {

@@ -12,6 +12,7 @@
 #include "layers/layer_builder.hpp"
 #include "layers/layered_rays.hpp"
 #include "layers/mechanisms.hpp"
+#include "layers/stages.hpp"
 #include "layers/target_length.hpp"
 
 namespace lamina::layers {
@@ -82,12 +83,6 @@ bool is_above_wall(const Rays& rays, const std::vector<FrontCorner>& corners, st
 
 }  // namespace
 
-}  // namespace lamina::layers
-
-namespace lamina {
-
-using namespace layers;
-
 /// Where rays converge, edges of the front are shorter than those of the wall below. If they requested their own
 /// lengths, the wall beside would become finer for them, then the wall below, and then these edges themselves.
 std::vector<WallSpacing> wall_spacings(const Rays& rays, const BorderOptions& options) {
@@ -124,6 +119,20 @@ Layer close_border(const Rays& rays, const BorderOptions& options) {
     layer.jagged = rays.jagged;
     layer.edges = layer_edges(layer);
     return layer;
+}
+
+}  // namespace lamina::layers
+
+namespace lamina {
+
+Layer make_layer(const Geometry& geometry, const LayerOptions& options, const LayerGrowth& growth,
+                 const BorderOptions& border) {
+    return layers::close_border(layers::grow_rays(geometry, options, growth), border);
+}
+
+Layer make_layer(const Geometry& geometry, const LayerOptions& options, const BorderOptions& border) {
+    validate(options);
+    return make_layer(geometry, options, layer_growth(options, {.chord = bounding_box(geometry).width()}), border);
 }
 
 }  // namespace lamina

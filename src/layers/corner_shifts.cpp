@@ -17,6 +17,7 @@
 #include "core/reproducible_math.hpp"
 #include "layers/mechanisms.hpp"
 #include "layers/neighbours.hpp"
+#include "layers/stages.hpp"
 
 namespace lamina::layers {
 

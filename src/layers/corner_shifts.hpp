@@ -6,6 +6,7 @@
 #include <lamina/layers.hpp>
 
 #include "layers/outline_kind.hpp"
+#include "layers/stages.hpp"
 
 namespace lamina::layers {
 

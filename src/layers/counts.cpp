@@ -13,6 +13,7 @@
 #include "core/segments.hpp"
 #include "layers/layered_rays.hpp"
 #include "layers/neighbours.hpp"
+#include "layers/stages.hpp"
 
 namespace lamina::layers {
 

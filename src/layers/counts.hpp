@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <lamina/layers.hpp>
+#include "layers/stages.hpp"
 
 namespace lamina::layers {
 

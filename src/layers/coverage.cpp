@@ -8,6 +8,7 @@
 #include "core/parallel.hpp"
 #include "core/segments.hpp"
 #include "layers/layered_rays.hpp"
+#include "layers/stages.hpp"
 
 namespace lamina::layers {
 

@@ -5,6 +5,8 @@
 
 #include <lamina/layers.hpp>
 
+#include "layers/stages.hpp"
+
 namespace lamina::layers {
 
 /// Returns the coverage of each element.

@@ -11,6 +11,7 @@
 #include "layers/balance_divisions.hpp"
 #include "layers/edge_division.hpp"
 #include "layers/polygon_edges.hpp"
+#include "layers/stages.hpp"
 #include "layers/target_length.hpp"
 #include "layers/undo_crossings.hpp"
 

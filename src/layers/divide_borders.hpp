@@ -6,6 +6,8 @@
 
 #include <lamina/layers.hpp>
 
+#include "layers/stages.hpp"
+
 namespace lamina::layers {
 
 /// How the edges of fronts are divided. Both members hold one entry per front and edge; edge k runs from corner k to

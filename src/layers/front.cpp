@@ -1,6 +1,8 @@
 // The corners of fronts, and the fronts as points.
 #include "layers/front.hpp"
 
+#include "layers/stages.hpp"
+
 namespace lamina::layers {
 
 std::vector<std::vector<FrontCorner>> front_corners(const LayeredRays& rays) {
@@ -31,12 +33,6 @@ Point place_of(const LayeredRays& rays, const FrontCorner& corner) {
     return corner.after > 0 ? rays.set.lines[corner.ray].corner_after[corner.after - 1] : rays.tip(corner.ray);
 }
 
-}  // namespace lamina::layers
-
-namespace lamina {
-
-using namespace layers;
-
 std::vector<std::vector<Point>> fronts(const Rays& rays) {
     const LayeredRays layered = layered_rays(rays);
     std::vector<std::vector<Point>> result;
@@ -48,4 +44,4 @@ std::vector<std::vector<Point>> fronts(const Rays& rays) {
     return result;
 }
 
-}  // namespace lamina
+}  // namespace lamina::layers

@@ -17,6 +17,7 @@
 #include "layers/mechanisms.hpp"
 #include "layers/rays.hpp"
 #include "layers/sharp_corners.hpp"
+#include "layers/stages.hpp"
 #include "layers/truncation.hpp"
 #include "layers/wake_outline.hpp"
 
@@ -176,12 +177,6 @@ RaySet bare_walls(const Geometry& geometry) {
 
 }  // namespace
 
-}  // namespace lamina::layers
-
-namespace lamina {
-
-using namespace layers;
-
 Rays grow_rays(const Geometry& geometry, const LayerOptions& options, const LayerGrowth& growth) {
     validate(options);
     Rays rays;
@@ -207,9 +202,4 @@ Rays grow_rays(const Geometry& geometry, const LayerOptions& options, const Laye
     return rays;
 }
 
-Rays grow_rays(const Geometry& geometry, const LayerOptions& options) {
-    validate(options);
-    return grow_rays(geometry, options, layer_growth(options, {.chord = bounding_box(geometry).width()}));
-}
-
-}  // namespace lamina
+}  // namespace lamina::layers

@@ -9,6 +9,7 @@
 
 #include "core/reproducible_math.hpp"
 #include "layers/isotropy.hpp"
+#include "layers/stages.hpp"
 
 namespace lamina::layers {
 

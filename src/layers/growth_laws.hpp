@@ -8,6 +8,8 @@
 
 #include <lamina/layers.hpp>
 
+#include "layers/stages.hpp"
+
 namespace lamina::layers {
 
 /// The part of a growth law that takes the growth of each ray from the distance to the neighbouring rays.

@@ -19,6 +19,7 @@
 #include "layers/mechanisms.hpp"
 #include "layers/neighbours.hpp"
 #include "layers/numbers.hpp"
+#include "layers/stages.hpp"
 #include "layers/stretch.hpp"
 
 namespace lamina::layers {
@@ -115,8 +116,7 @@ public:
             const Stretch stretch = whole ? Stretch{} : stretch_of_layers(front_[i], heights_[i], layers_[i]);
             heights_[i].resize(layers_[i] + std::size_t{1});
             stretch_heights(stretch, heights_[i]);
-            columns.push_back(
-                {table.size(), layers_[i], asked_layers[i], is_cut(i), law_.growth(i), stretch, max_spacings_[i]});
+            columns.push_back({table.size(), layers_[i], asked_layers[i], is_cut(i), law_.growth(i), stretch});
             table.insert(table.end(), heights_[i].begin(), heights_[i].end());
         }
     }

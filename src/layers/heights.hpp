@@ -6,6 +6,8 @@
 
 #include <lamina/layers.hpp>
 
+#include "layers/stages.hpp"
+
 namespace lamina::layers {
 
 /// Returns the height of all requested layers over a wall whose vertices lie `spacing` apart. It is an estimate where

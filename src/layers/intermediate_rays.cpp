@@ -2,6 +2,7 @@
 #include "layers/intermediate_rays.hpp"
 
 #include "core/angles.hpp"
+#include "layers/stages.hpp"
 
 namespace lamina::layers {
 

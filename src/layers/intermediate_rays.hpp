@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include <lamina/layers.hpp>
+#include "layers/stages.hpp"
 
 namespace lamina::layers {
 

@@ -16,6 +16,7 @@
 
 #include "layers/mechanisms.hpp"
 #include "layers/neighbours.hpp"
+#include "layers/stages.hpp"
 
 namespace lamina::layers {
 

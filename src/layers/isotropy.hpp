@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include <lamina/layers.hpp>
+#include "layers/stages.hpp"
 
 namespace lamina::layers {
 

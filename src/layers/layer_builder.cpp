@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/parallel.hpp"
+#include "layers/stages.hpp"
 
 namespace lamina::layers {
 
@@ -240,13 +241,7 @@ private:
                                           .growth = column.growth,
                                           .first_point = first_point_[i],
                                           .height_limit = height_limit(i),
-                                          .stretch = column.stretch,
-                                          .slant = set_.lines[i].slant,
-                                          .max_spacing = column.max_spacing,
                                           .place = set_.lines[i].place,
-                                          .opening = set_.lines[i].opening,
-                                          .taper = column.taper,
-                                          .shift = set_.lines[i].shift,
                                           .corner_after = corner_after_ray_[i]});
             }
         }

@@ -7,6 +7,7 @@
 
 #include "layers/divide_borders.hpp"
 #include "layers/front.hpp"
+#include "layers/stages.hpp"
 
 namespace lamina::layers {
 

@@ -7,9 +7,10 @@
 #include <vector>
 
 #include "layers/counts.hpp"
+#include "layers/end_spacings.hpp"
 #include "layers/heights.hpp"
 #include "layers/neighbours.hpp"
-#include "layers/taper.hpp"
+#include "layers/stages.hpp"
 #include "layers/truncation.hpp"
 
 namespace lamina::layers {
@@ -56,7 +57,7 @@ void fit_and_count_layers(Rays& rays) {
     rays.front = front_heights(rays);
     rays.heights = columns_up_to(rays.set, rays.growth, rays.asked, rays.front);
     rays.counts = layer_counts(rays.set, rays.heights);
-    taper_columns(rays);
+    fit_end_spacings(rays);
 }
 
 }  // namespace lamina::layers

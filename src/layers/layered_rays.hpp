@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include <lamina/layers.hpp>
+#include "layers/stages.hpp"
 
 namespace lamina::layers {
 

@@ -5,6 +5,7 @@
 
 #include "core/parallel.hpp"
 #include "layers/neighbours.hpp"
+#include "layers/stages.hpp"
 
 namespace lamina::layers {
 
@@ -57,16 +58,6 @@ std::vector<double> least_heights(const RaySet& set) {
     }
     fill_fans(set, with_fans);
     return with_fans;
-}
-
-void limit_spacings(double max_spacing, std::span<double> heights) {
-    if (std::isinf(max_spacing)) return;
-    double height_below = heights[0], height = 0;
-    for (double& h : heights.subspan(1)) {
-        height += std::min(h - height_below, max_spacing);
-        height_below = h;
-        h = height;
-    }
 }
 
 }  // namespace lamina::layers

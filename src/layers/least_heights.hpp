@@ -6,6 +6,7 @@
 
 #include <lamina/layers.hpp>
 
+#include "layers/stages.hpp"
 #include "layers/wake_outline.hpp"
 
 namespace lamina::layers {
@@ -17,8 +18,5 @@ void set_least_heights(std::span<const WallHeight> chain, std::span<RayVertex> o
 /// Returns the least heights of all rays. The ends of a fan have those of the rays beside it, so that both sides of a
 /// trailing edge keep their own.
 std::vector<double> least_heights(const RaySet& set);
-
-/// Lowers the spacings of a column to at most max_spacing. heights[0] = 0 is the wall.
-void limit_spacings(double max_spacing, std::span<double> heights);
 
 }  // namespace lamina::layers

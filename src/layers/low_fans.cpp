@@ -16,6 +16,7 @@
 #include <cstddef>
 
 #include "core/angles.hpp"
+#include "layers/stages.hpp"
 
 namespace lamina::layers {
 

@@ -1,7 +1,7 @@
 // Fewer rays in fans that end low.
 #pragma once
 
-#include <lamina/layers.hpp>
+#include "layers/stages.hpp"
 
 namespace lamina::layers {
 

@@ -1,6 +1,8 @@
 // The neighbours of rays, and limits on how much they differ.
 #include "layers/neighbours.hpp"
 
+#include "layers/stages.hpp"
+
 namespace lamina::layers {
 
 RayNeighbours::RayNeighbours(const RaySet& set) : next(set.following()), previous(next.size()) {
@@ -43,10 +45,6 @@ void limit_count_differences(const RaySet& set, std::vector<std::uint32_t>& coun
     lower_to_neighbours(set, counts, [&](std::size_t from, std::size_t) { return counts[from] + 1; });
 }
 
-}  // namespace lamina::layers
-
-namespace lamina {
-
 std::vector<std::size_t> RaySet::following() const {
     std::vector<std::size_t> next(lines.size());
     for (std::size_t e = 0; e < elements(); ++e)
@@ -54,4 +52,4 @@ std::vector<std::size_t> RaySet::following() const {
     return next;
 }
 
-}  // namespace lamina
+}  // namespace lamina::layers

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <lamina/layers.hpp>
+#include "layers/stages.hpp"
 
 namespace lamina::layers {
 

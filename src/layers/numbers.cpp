@@ -35,6 +35,7 @@
 
 #include "layers/mechanisms.hpp"
 #include "layers/rows.hpp"
+#include "layers/stages.hpp"
 
 namespace lamina::layers {
 

@@ -5,8 +5,7 @@
 #include <span>
 #include <vector>
 
-#include <lamina/layers.hpp>
-
+#include "layers/stages.hpp"
 #include "layers/stretch.hpp"
 
 namespace lamina::layers {

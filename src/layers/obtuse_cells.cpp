@@ -10,10 +10,9 @@
 #include "core/angles.hpp"
 #include "core/reproducible_math.hpp"
 #include "layers/layered_rays.hpp"
+#include "layers/stages.hpp"
 
-namespace lamina {
-
-using namespace layers;
+namespace lamina::layers {
 
 namespace {
 
@@ -89,4 +88,4 @@ bool end_columns_below(std::span<const ObtuseCell> cells, Rays& rays) {
     return true;
 }
 
-}  // namespace lamina
+}  // namespace lamina::layers

@@ -8,6 +8,7 @@
 #include "layers/intermediate_rays.hpp"
 #include "layers/leans.hpp"
 #include "layers/mechanisms.hpp"
+#include "layers/stages.hpp"
 
 namespace lamina::layers {
 

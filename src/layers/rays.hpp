@@ -7,6 +7,7 @@
 #include <lamina/layers.hpp>
 
 #include "layers/outline_kind.hpp"
+#include "layers/stages.hpp"
 #include "layers/wake_outline.hpp"
 
 namespace lamina::layers {

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "layers/stages.hpp"
+
 namespace lamina::layers {
 
 namespace {

@@ -1,7 +1,7 @@
 // Rows of cells between neighbouring rays, and how far they are from rectangles.
 #pragma once
 
-#include <lamina/layers.hpp>
+#include "layers/stages.hpp"
 
 namespace lamina::layers {
 

@@ -8,10 +8,9 @@
 
 #include "core/box_tree.hpp"
 #include "layers/layered_rays.hpp"
+#include "layers/stages.hpp"
 
-namespace lamina {
-
-using namespace layers;
+namespace lamina::layers {
 
 std::vector<std::size_t> shorten_rays(std::span<const Circle> places, Rays& rays) {
     constexpr double kept_share = 0.6;  // of the height
@@ -47,4 +46,4 @@ std::vector<std::size_t> shorten_rays(std::span<const Circle> places, Rays& rays
     return ends;
 }
 
-}  // namespace lamina
+}  // namespace lamina::layers

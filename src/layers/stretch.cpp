@@ -21,12 +21,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "layers/stages.hpp"
+
 namespace lamina::layers {
 
 namespace {
-
-/// Returns the last layer below those that are stretched: half of the layers keep their heights, and so does the first.
-std::uint32_t last_unstretched(std::uint32_t layers) { return std::max(layers / 2, std::uint32_t{1}); }
 
 /// Returns the height of the topmost of n layers if they are stretched.
 double stretched_height(std::span<const double> heights, std::uint32_t n, double factor) {
@@ -78,9 +77,10 @@ double max_factor_below(double height, std::span<const double> heights, std::uin
 
 void stretch_heights(const Stretch& stretch, std::span<double> heights) {
     if (stretch.factor == 1 || heights.size() <= stretch.above) return;
-    double height_below = heights[stretch.above], height = height_below, product = 1;
+    double height_below = heights[stretch.above], height = height_below, product = 1, factor = stretch.factor;
     for (double& h : heights.subspan(stretch.above + std::size_t{1})) {
-        product *= stretch.factor;
+        product *= factor;
+        factor *= stretch.change;
         height += product * (h - height_below);
         height_below = h;
         h = height;
@@ -93,12 +93,12 @@ StretchedLayers layers_up_to(double height, std::span<const double> heights) {
     const auto fitting = static_cast<std::uint32_t>(first_above - heights.begin()) - 1;
     if (fitting == 0 || heights[fitting] == height) return {fitting, {}};
     const double grown = max_factor_below(height, heights, fitting);
-    const StretchedLayers as_many{fitting, {grown, last_unstretched(fitting)}};
+    const StretchedLayers as_many{fitting, {grown, 1, last_unstretched(fitting)}};
     if (fitting + std::size_t{1} == heights.size()) return as_many;
     // One more layer fits if it shrinks by the largest factor, and is taken if it shrinks by less than the others grow.
     const double least = grown == max_stretch ? 1 / max_stretch : 1 / grown;
     if (stretched_height(heights, fitting + 1, least) > height) return as_many;
-    return {fitting + 1, {max_factor_below(height, heights, fitting + 1), last_unstretched(fitting + 1)}};
+    return {fitting + 1, {max_factor_below(height, heights, fitting + 1), 1, last_unstretched(fitting + 1)}};
 }
 
 LayerRange layer_range(double height, std::span<const double> heights, std::uint32_t wanted) {
@@ -114,7 +114,7 @@ LayerRange layer_range(double height, std::span<const double> heights, std::uint
 
 Stretch stretch_of_layers(double height, std::span<const double> heights, std::uint32_t n) {
     if (n < 2 || heights[n] == height) return {};
-    return {max_factor_below(height, heights, n), last_unstretched(n)};
+    return {max_factor_below(height, heights, n), 1, last_unstretched(n)};
 }
 
 double stretched_last_spacing(double height, std::span<const double> heights, std::uint32_t n) {

@@ -1,11 +1,16 @@
 // The stretch with which a column of layers ends at a given height.
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <span>
 
-#include <lamina/layers.hpp>
+#include "layers/stages.hpp"
 
 namespace lamina::layers {
+
+/// Returns the last layer below those that are stretched: half of the layers keep their heights, and so does the first.
+inline std::uint32_t last_unstretched(std::uint32_t layers) { return std::max(layers / 2, std::uint32_t{1}); }
 
 /// Stretches a column. heights[0] = 0 is the wall.
 void stretch_heights(const Stretch& stretch, std::span<double> heights);

@@ -17,6 +17,7 @@
 #include "core/box_tree.hpp"
 #include "core/parallel.hpp"
 #include "core/segments.hpp"
+#include "layers/stages.hpp"
 
 namespace lamina::layers {
 

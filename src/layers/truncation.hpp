@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include <lamina/layers.hpp>
+#include "layers/stages.hpp"
 
 namespace lamina::layers {
 

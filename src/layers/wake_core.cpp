@@ -18,6 +18,8 @@
 #include <cmath>
 #include <vector>
 
+#include "layers/stages.hpp"
+
 namespace lamina::layers {
 
 namespace {

@@ -5,6 +5,8 @@
 
 #include <lamina/layers.hpp>
 
+#include "layers/stages.hpp"
+
 namespace lamina::layers {
 
 /// Returns the core between a base and the point `end` behind it. Its layers grow from the base by the law, until they

@@ -21,6 +21,7 @@
 #include "core/bounding_box.hpp"
 #include "core/box_tree.hpp"
 #include "core/segments.hpp"
+#include "layers/stages.hpp"
 #include "layers/truncation.hpp"
 #include "layers/wake_core.hpp"
 

@@ -8,6 +8,8 @@
 
 #include <lamina/layers.hpp>
 
+#include "layers/stages.hpp"
+
 namespace lamina::layers {
 
 /// A vertex of an outline that rays are grown round.

@@ -7,6 +7,7 @@
 #include <lamina/option_builders.hpp>
 
 #include "core/reproducible_math.hpp"
+#include "pipeline/ray_plan.hpp"
 
 namespace lamina::pipeline {
 
@@ -169,12 +170,6 @@ BorderOptions border_options(const CaseOptions& options, double chord, std::span
     return border;
 }
 
-BorderOptions wall_border_options(const CaseOptions& options, double chord, std::span<const SizeSource> sources) {
-    BorderOptions border = border_options(options, chord, sources);
-    border.gradation = std::max(border.gradation, min_wall_gradation / options.fineness);
-    return border;
-}
-
 SizedBodies sized_bodies(const Geometry& geometry, const ReferenceConditions& conditions) {
     SizedBodies bodies;
     bodies.chord = conditions.chord;
@@ -187,3 +182,13 @@ SizedBodies sized_bodies(const Geometry& geometry, const ReferenceConditions& co
 }
 
 }  // namespace lamina
+
+namespace lamina::pipeline {
+
+BorderOptions wall_border_options(const CaseOptions& options, double chord, std::span<const SizeSource> sources) {
+    BorderOptions border = border_options(options, chord, sources);
+    border.gradation = std::max(border.gradation, min_wall_gradation / options.fineness);
+    return border;
+}
+
+}  // namespace lamina::pipeline

@@ -20,6 +20,7 @@
 #include "decoupling/far_field.hpp"
 #include "decoupling/refine_all.hpp"
 #include "layers/fill.hpp"
+#include "layers/stages.hpp"
 #include "pipeline/assemble.hpp"
 #include "pipeline/checked_pieces.hpp"
 #include "pipeline/flow_guidance.hpp"
@@ -350,7 +351,7 @@ MadeMesh mesh_on_rays(const RayPlan& plan, const CaseOptions& options, const Des
     result.thinned_rays = plan.thinned_rays;
     result.thinned_at = plan.thinned_at;
     const Layer layer =
-        close_border(plan.rays, border_options(options, plan.conditions.chord, plan.requests.at_borders));
+        layers::close_border(plan.rays, border_options(options, plan.conditions.chord, plan.requests.at_borders));
     seconds.layers += clock.lap();
 
     clock.begin("sizing");

@@ -10,6 +10,7 @@
 
 #include "decoupling/far_field.hpp"
 #include "layers/mechanisms.hpp"
+#include "layers/stages.hpp"
 #include "pipeline/wake_sizes.hpp"
 
 namespace lamina::pipeline {
@@ -41,9 +42,9 @@ void require_room_for_layers(const Geometry& geometry, const std::vector<std::ve
 
 /// Returns circles round the triangles with an angle below the bound that no sharp corner excuses. They hold the ends of
 /// the rays beside.
-std::vector<Circle> circles_round_unexcused(std::span<const mesh::NarrowTriangle> narrow) {
+std::vector<layers::Circle> circles_round_unexcused(std::span<const mesh::NarrowTriangle> narrow) {
     constexpr double reach = 1.5;  // in longest edges
-    std::vector<Circle> circles;
+    std::vector<layers::Circle> circles;
     for (const mesh::NarrowTriangle& triangle : narrow) {
         const auto [a, b, c] = triangle.corners;
         circles.push_back(
@@ -59,7 +60,7 @@ bool same_points(const Geometry& a, const Geometry& b) {
 
 /// Returns the sizes that the options, the fronts of these rays and the wakes behind their layers request. Where a
 /// background mesh decides on sizes, wakes request them of borders alone.
-SizeRequests request_sizes(SizingOptions options, const SizedBodies& bodies, const Rays& rays,
+SizeRequests request_sizes(SizingOptions options, const SizedBodies& bodies, const layers::Rays& rays,
                            std::span<const ElementWake> wakes, const Box& domain) {
     std::vector<SizeSource> along_wakes;
     for (std::size_t e = 0; e < wakes.size(); ++e) {
@@ -71,7 +72,7 @@ SizeRequests request_sizes(SizingOptions options, const SizedBodies& bodies, con
     }
     const bool decided = decides_on_sizes(options);
     if (!decided) options.sources.insert(options.sources.end(), along_wakes.begin(), along_wakes.end());
-    SizeRequests requests = gather_size_requests(options, bodies, fronts(rays), domain);
+    SizeRequests requests = gather_size_requests(options, bodies, layers::fronts(rays), domain);
     if (decided) requests.at_borders.insert(requests.at_borders.end(), along_wakes.begin(), along_wakes.end());
     return requests;
 }
@@ -97,7 +98,7 @@ void renew_requests(const CaseOptions& options, RayPlan& plan) {
 }
 
 /// Returns whether all rays have all layers that were requested.
-bool all_layers_fit(const Rays& rays) {
+bool all_layers_fit(const layers::Rays& rays) {
     for (std::size_t i = 0; i < rays.counts.size(); ++i)
         if (rays.counts[i] < rays.heights.column(i).asked_layers) return false;
     return true;
@@ -108,8 +109,9 @@ bool all_layers_fit(const Rays& rays) {
 RayPlan plan_rays(Geometry geometry, const ReferenceConditions& conditions, const CaseOptions& options,
                   const LayerGrowth& growth, std::vector<ElementWake> wakes) {
     FarField far_field = place_far_field(bounding_box(geometry), conditions.chord, options.far_field);
-    Rays rays = grow_rays(geometry, options.layer, growth);
-    if (options.layer.enabled) require_room_for_layers(geometry, fronts(rays), far_field, options.layer, growth);
+    layers::Rays rays = layers::grow_rays(geometry, options.layer, growth);
+    if (options.layer.enabled)
+        require_room_for_layers(geometry, layers::fronts(rays), far_field, options.layer, growth);
     SizeRequests requests =
         request_sizes(options.sizing, sized_bodies(geometry, conditions), rays, wakes, far_field.box());
     std::vector<double> front = rays.front;
@@ -127,8 +129,8 @@ void refine_walls_below_borders(const Geometry& given, const CaseOptions& option
     constexpr int max_rounds = 3;
     if (!options.layer.enabled || !layers::uses("refine_walls")) return;
     for (int round = 0; round < max_rounds; ++round) {
-        const std::vector<WallSpacing> finer =
-            wall_spacings(plan.rays, wall_border_options(options, plan.conditions.chord, plan.requests.at_borders));
+        const std::vector<WallSpacing> finer = layers::wall_spacings(
+            plan.rays, wall_border_options(options, plan.conditions.chord, plan.requests.at_borders));
         if (finer.empty()) return;
         limits.walls.insert(limits.walls.end(), finer.begin(), finer.end());
         Geometry prepared = prepare_surfaces(given, options.surface, limits, plan.conditions.chord);
@@ -144,20 +146,20 @@ void end_columns_below_obtuse_cells(const CaseOptions& options, RayPlan& plan) {
     // Where all layers are made, nothing is in their way; equal numbers of layers are a promise.
     if (!layers::uses("end_obtuse") || !options.layer.enabled || options.layer.fan_rays || all_layers_fit(plan.rays))
         return;
-    const auto obtuse_cells_of = [&](const Rays& rays) {
+    const auto obtuse_cells_of = [&](const layers::Rays& rays) {
         const Layer layer =
-            close_border(rays, border_options(options, plan.conditions.chord, plan.requests.at_borders));
-        return obtuse_cells(layer, fill_layer(layer, options.layer.topology, options.decomposition),
-                            largest_layer_angle_deg);
+            layers::close_border(rays, border_options(options, plan.conditions.chord, plan.requests.at_borders));
+        return layers::obtuse_cells(layer, fill_layer(layer, options.layer.topology, options.decomposition),
+                                    largest_layer_angle_deg);
     };
-    std::vector<ObtuseCell> fewest = obtuse_cells_of(plan.rays);
+    std::vector<layers::ObtuseCell> fewest = obtuse_cells_of(plan.rays);
     bool is_changed = false;
     for (const std::uint16_t above : {far_from_wall, above_first}) {
-        Rays rays = plan.rays;
-        std::vector<ObtuseCell> obtuse = fewest;
+        layers::Rays rays = plan.rays;
+        std::vector<layers::ObtuseCell> obtuse = fewest;
         for (int round = 0, without_gain = 0; round < max_rounds && without_gain < max_rounds_without_gain; ++round) {
-            std::erase_if(obtuse, [&](const ObtuseCell& cell) { return cell.layer <= above; });
-            if (!end_columns_below(obtuse, rays)) break;
+            std::erase_if(obtuse, [&](const layers::ObtuseCell& cell) { return cell.layer <= above; });
+            if (!layers::end_columns_below(obtuse, rays)) break;
             obtuse = obtuse_cells_of(rays);
             ++without_gain;
             if (obtuse.size() >= fewest.size()) continue;
@@ -177,9 +179,9 @@ bool make_room_at_narrow_triangles(std::span<const mesh::NarrowTriangle> narrow,
     // Where no layer is thinned, the borders' edges become this share of the circles' radii.
     constexpr double edge_share = 0.3;
     if (!options.layer.enabled || narrow.empty() || !layers::uses("make_room")) return false;
-    const std::vector<Circle> places = circles_round_unexcused(narrow);
+    const std::vector<layers::Circle> places = circles_round_unexcused(narrow);
     std::vector<std::size_t> ends(places.size(), 0);
-    if (thin) ends = shorten_rays(places, plan.rays);
+    if (thin) ends = layers::shorten_rays(places, plan.rays);
     for (std::size_t k = 0; k < places.size(); ++k) {
         const Point at = places[k].middle;
         if (ends[k] == 0) plan.short_edges.push_back({.a = at, .b = at, .size = edge_share * places[k].radius});

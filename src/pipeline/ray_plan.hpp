@@ -8,6 +8,7 @@
 
 #include <lamina/pipeline.hpp>
 
+#include "layers/stages.hpp"
 #include "mesh/piece_check.hpp"
 #include "pipeline/flow_guidance.hpp"
 
@@ -18,7 +19,7 @@ struct RayPlan {
     Geometry geometry;
     ReferenceConditions conditions;
     FarField far_field;
-    Rays rays;
+    layers::Rays rays;
     SizeRequests requests;
     std::vector<ElementWake> wakes{};       ///< of the flow, one per element or none
     std::vector<double> first_front{};      ///< of the rays, before any was shortened
@@ -32,6 +33,10 @@ inline constexpr double largest_layer_angle_deg = 150;
 
 /// Returns whether a background mesh decides on the sizes beyond the layers (SizedMesh::gradation).
 inline bool decides_on_sizes(const SizingOptions& sizing) { return sizing.background && sizing.background->gradation; }
+
+/// Returns border_options() for the spacings of the walls below the border, which grow no more slowly than sizes near bodies
+/// should.
+BorderOptions wall_border_options(const CaseOptions& options, double chord, std::span<const SizeSource> sources);
 
 /// Makes rays on prepared walls. Behind the layers that go on along a wake, its sources request sizes. Throws OptionError
 /// where layers do not fit into the far field.

@@ -16,6 +16,7 @@
 #include "core/box_tree.hpp"
 #include "layers/front.hpp"
 #include "layers/layered_rays.hpp"
+#include "layers/stages.hpp"
 #include "layers/target_length.hpp"
 
 namespace lamina::pipeline {
@@ -37,7 +38,7 @@ struct CellTop {
     double least_size;
 };
 
-std::vector<CellTop> cell_tops(const Rays& rays, std::size_t element) {
+std::vector<CellTop> cell_tops(const layers::Rays& rays, std::size_t element) {
     const layers::LayeredRays layered = layers::layered_rays(rays);
     std::vector<CellTop> tops;
     const std::vector<layers::FrontCorner> corners = layers::front_corners(layered)[element];
@@ -61,7 +62,7 @@ double distance_between(const SizeSource& source, const CellTop& top) {
 
 }  // namespace
 
-void fit_wake_to_layer(const Rays& rays, std::size_t element, double gradation, std::span<SizeSource> sources) {
+void fit_wake_to_layer(const layers::Rays& rays, std::size_t element, double gradation, std::span<SizeSource> sources) {
     if (sources.empty() || !rays.enabled) return;
     const std::vector<CellTop> tops = cell_tops(rays, element);
     std::vector<Box> boxes;

@@ -7,7 +7,6 @@
 
 #include "core/reproducible_math.hpp"
 #include "fuzz/fuzz.hpp"
-
 namespace {
 
 /// Returns a closed outline whose distance from its centre changes from point to point.
@@ -44,7 +43,7 @@ void lamina::fuzz::fuzz(std::span<const std::uint8_t> input) {
     }
     try {
         check_simple(geometry);
-        const Layer layer = close_border(grow_rays(geometry, options));
+        const Layer layer = make_layer(geometry, options);
         require(check_layer(layer, options).empty(), "the layer has a defect");
         fill_layer(layer, LayerTopology::delaunay);
     } catch (const Error&) {

@@ -14,7 +14,7 @@ namespace lamina::test {
 
 /// Makes a layer and adds a test failure for each finding of check_layer().
 inline Layer checked_layer(const Geometry& geometry, const LayerOptions& options, const BorderOptions& border = {}) {
-    Layer layer = make_layer(geometry, options, border);
+    Layer layer = test::make_layer(geometry, options, border);
     for (const std::string& finding : check_layer(layer, options, border)) ADD_FAILURE() << finding;
     return layer;
 }

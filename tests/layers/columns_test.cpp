@@ -14,6 +14,7 @@
 #include "layers/heights.hpp"
 #include "layers/layered_rays.hpp"
 #include "layers/neighbours.hpp"
+#include "layers/stages.hpp"
 #include "support/layers.hpp"
 #include "support/shapes.hpp"
 

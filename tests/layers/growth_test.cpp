@@ -12,6 +12,7 @@
 #include "layers/compare_points.hpp"
 #include "layers/growth_laws.hpp"
 #include "layers/heights.hpp"
+#include "layers/stages.hpp"
 #include "support/layers.hpp"
 #include "support/shapes.hpp"
 
@@ -147,9 +148,12 @@ TEST(GrowthLaw, PlacesLayersAtTheirHeights) {
         const LayerOptions options = options_of(law);
         for (const Outline& outline : sections()) {
             SCOPED_TRACE(static_cast<int>(law));
-            const Layer layer = checked_layer(outline, options);
-            for (const Ray& ray : layer.rays[0]) {
-                if (ray.layers < ray.requested || ray.stretch.factor != 1) continue;
+            const Geometry geometry = shapes::geometry({outline});
+            const Layer layer = checked_layer(geometry, options);
+            const Rays made = grow_rays(geometry, options, test::growth_of(options));
+            for (std::size_t i = 0; i < layer.rays[0].size(); ++i) {
+                const Ray& ray = layer.rays[0][i];
+                if (ray.layers < ray.requested || made.heights.column(i).stretch.factor != 1) continue;
                 double height = 0;
                 LayerOptions own = options;
                 if (layers::growth_law_entry(law).by_spacing) own.growth = ray.growth;
@@ -158,7 +162,7 @@ TEST(GrowthLaw, PlacesLayersAtTheirHeights) {
                         distance(layer.points[ray.vertex(n - 1).index()], layer.points[ray.vertex(n).index()]);
                     ASSERT_GT(spacing, 0.999 * test::first_height(options));
                     height += spacing;
-                    ASSERT_NEAR(height / (ray.slant * layer_height(test::growth_of(own), n)), 1, 1e-9);
+                    ASSERT_NEAR(height / (made.set.lines[i].slant * layer_height(test::growth_of(own), n)), 1, 1e-9);
                 }
             }
         }
@@ -167,11 +171,14 @@ TEST(GrowthLaw, PlacesLayersAtTheirHeights) {
 
 TEST(GrowthLaw, ExponentialLayersHaveTheRequestedThickness) {
     const LayerOptions options = options_of(GrowthLaw::exponential);
-    const Layer layer = checked_layer(shapes::section(0.12, 0, 80), options);
-    for (const Ray& ray : layer.rays[0]) {
+    const Geometry geometry = shapes::geometry({shapes::section(0.12, 0, 80)});
+    const Layer layer = checked_layer(geometry, options);
+    const Rays made = grow_rays(geometry, options, test::growth_of(options));
+    for (std::size_t i = 0; i < layer.rays[0].size(); ++i) {
+        const Ray& ray = layer.rays[0][i];
         EXPECT_EQ(ray.layers, 30u);
-        EXPECT_NEAR(distance(layer.points[ray.origin.index()], layer.points[ray.tip().index()]), 0.02 * ray.slant,
-                    1e-12);
+        EXPECT_NEAR(distance(layer.points[ray.origin.index()], layer.points[ray.tip().index()]),
+                    0.02 * made.set.lines[i].slant, 1e-12);
     }
 }
 
@@ -182,7 +189,7 @@ void expect_smooth_heights(const Layer& layer, double growth = 1) {
         for (std::size_t i = 0; i < rays.size(); ++i) {
             const Ray &ray = rays[i], &next = rays[(i + 1) % rays.size()];
             if (ray.layers < ray.requested || next.layers < next.requested) continue;
-            if (ray.stretch.factor != 1 || next.stretch.factor != 1) continue;
+            if (!std::isinf(ray.height_limit) || !std::isinf(next.height_limit)) continue;
             const auto height = [&](const Ray& r) {
                 return distance(layer.points[r.origin.index()], layer.points[r.tip().index()]);
             };

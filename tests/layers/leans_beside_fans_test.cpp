@@ -13,6 +13,7 @@
 
 #include "core/angles.hpp"
 #include "layers/rays.hpp"
+#include "layers/stages.hpp"
 #include "support/layers.hpp"
 #include "support/shapes.hpp"
 

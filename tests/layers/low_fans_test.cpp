@@ -11,6 +11,7 @@
 #include "checked_layer.hpp"
 #include "core/angles.hpp"
 #include "layers/low_fans.hpp"
+#include "layers/stages.hpp"
 #include "support/layers.hpp"
 #include "support/shapes.hpp"
 

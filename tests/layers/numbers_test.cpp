@@ -12,6 +12,7 @@
 #include <lamina/layers.hpp>
 
 #include "core/angles.hpp"
+#include "layers/stages.hpp"
 #include "support/layers.hpp"
 
 namespace lamina {

@@ -12,6 +12,7 @@
 
 #include "cell_angles.hpp"
 #include "core/angles.hpp"
+#include "layers/stages.hpp"
 #include "support/layers.hpp"
 #include "support/shapes.hpp"
 
@@ -106,7 +107,8 @@ TEST(ObtuseCells, ColumnsEndBelowThem) {
 }
 
 TEST(ObtuseCells, NothingChangesWithoutThem) {
-    Rays rays = grow_rays(shapes::geometry({shapes::circle(1, 100)}), thick_layers(20));
+    Rays rays =
+        grow_rays(shapes::geometry({shapes::circle(1, 100)}), thick_layers(20), test::growth_of(thick_layers(20)));
     const std::vector<double> limits = rays.limits;
     EXPECT_FALSE(end_columns_below({}, rays));
     EXPECT_FALSE(end_columns_below(std::vector<ObtuseCell>{{3, 1}}, rays));

@@ -14,6 +14,7 @@
 #include "layers/checked_layer.hpp"
 #include "layers/corner_shifts.hpp"
 #include "layers/rays.hpp"
+#include "layers/stages.hpp"
 #include "support/layers.hpp"
 #include "support/shapes.hpp"
 
@@ -225,19 +226,19 @@ TEST(Rays, OutOfCoveCornersKeepTheHeightsAboveBothWalls) {
     const Outline cove = shapes::refined(shapes::polygon({{0, 0}, {4, 0}, {4, 4}, {2, 4}, {2, 2}, {0, 2}}), 40);
     const LayerOptions options = layers_as_high_as(0.1);
     const Layer layer = test::checked_layer(cove, options);
-    std::size_t slanted = 0;
+    std::size_t leaning = 0;
     for (const Ray& ray : layer.rays[0]) {
         const Point origin = layer.points[ray.origin.index()];
         EXPECT_EQ(ray.layers, ray.requested) << origin.x << ' ' << origin.y;
         if (!(origin.x <= 2 && origin.x > 1 && origin.y == 2)) continue;  // the wall left of the corner
-        slanted += ray.slant > 1.001;
+        leaning += ray.direction.y < 0.999;
         for (std::uint32_t n = 1; n <= ray.layers; ++n) {
             const double share = (layer.points[ray.vertex(n).index()].y - 2) / layer_height(layer.growth, n);
             EXPECT_LT(share, 1.01);
             EXPECT_GT(share, n <= ray.layers / 2 ? 0.99 : 0.95);
         }
     }
-    EXPECT_GT(slanted, 2u);
+    EXPECT_GT(leaning, 2u);
 }
 
 /// A kink beside a cove corner tilts the rays of both. Their first layers have the same height above both edges, though
@@ -246,20 +247,22 @@ TEST(Rays, ThatLeanOutOfCornersKeepFirstHeightsAboveBothEdges) {
     const Outline cove =
         shapes::refined(shapes::polygon({{0, 0}, {4, 0}, {4, 4}, {2, 4}, {2, 2.2}, {1.9, 2}, {0, 2}}), 12);
     const LayerOptions options = layers_as_high_as(0.1);
-    const Layer layer = test::checked_layer(cove, options);
+    const Geometry geometry = shapes::geometry({cove});
+    const Layer layer = test::checked_layer(geometry, options);
+    const Rays made = grow_rays(geometry, options, test::growth_of(options));
     const double height = layer_height(layer.growth, 1);
     std::size_t shifted = 0;
     for (std::size_t i = 0; i < layer.rays[0].size(); ++i) {
         const std::vector<Ray>& rays = layer.rays[0];
         const Ray &ray = rays[i], &before = rays[(i + rays.size() - 1) % rays.size()],
                   &after = rays[(i + 1) % rays.size()];
-        if (ray.shift == Point{}) continue;
+        if (made.set.lines[i].shift == Point{}) continue;
         ++shifted;
         const Point origin = layer.points[ray.origin.index()], top = layer.points[ray.vertex(1).index()];
         const auto height_above = [&](Point edge) { return dot(top - origin, -perpendicular(unit(edge))) / height; };
         EXPECT_NEAR(height_above(origin - layer.points[before.origin.index()]), 1, 1e-9);
         EXPECT_NEAR(height_above(layer.points[after.origin.index()] - origin), 1, 1e-9);
-        EXPECT_GT(distance(top, origin + ray.slant * height * ray.direction), 0.009 * height);
+        EXPECT_GT(distance(top, origin + made.set.lines[i].slant * height * ray.direction), 0.009 * height);
     }
     EXPECT_GT(shifted, 0u);
     EXPECT_LT(shifted, 4u);

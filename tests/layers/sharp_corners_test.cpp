@@ -17,6 +17,7 @@
 #include "layers/clefts.hpp"
 #include "layers/layered_rays.hpp"
 #include "layers/sharp_corners.hpp"
+#include "layers/stages.hpp"
 #include "support/layers.hpp"
 #include "support/shapes.hpp"
 

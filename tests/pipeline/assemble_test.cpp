@@ -11,7 +11,6 @@
 #include <lamina/decoupling.hpp>
 #include <lamina/layers.hpp>
 #include <lamina/pipeline.hpp>
-
 #include "pipeline/cases.hpp"
 
 namespace lamina::test {
@@ -32,7 +31,7 @@ Stages run_stages(const std::string& input, const CaseOptions& options) {
     stages.geometry = prepare_surfaces(read_geometry(std::vector<std::string>{input}), options.surface,
                                        spacing_limits(options, growth));
     const FarField far_field = place_far_field(bounding_box(stages.geometry), 1, options.far_field);
-    stages.layer = close_border(grow_rays(stages.geometry, options.layer, growth), border_options(options, 1, {}));
+    stages.layer = make_layer(stages.geometry, options.layer, growth, border_options(options, 1, {}));
     const SizeField size = make_size_field(border_loops(stages.layer), {}, options.sizing, 1, far_field.box());
     stages.decoupling = decouple(stages.layer.points, stages.layer.borders, size, far_field, options.decoupling);
     stages.cells = fill_layer(stages.layer, options.layer.topology);

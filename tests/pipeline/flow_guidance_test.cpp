@@ -8,6 +8,7 @@
 
 #include <lamina/error.hpp>
 
+#include "layers/stages.hpp"
 #include "pipeline/cases.hpp"
 #include "pipeline/flow_guidance.hpp"
 
@@ -53,7 +54,7 @@ TEST(FlowGuidance, LayersAreThickerThanBoundaryLayersAtAnyReynoldsNumber) {
             LayerGrowth growth =
                 layer_growth(options.layer, reference_conditions(options.conditions, {{0, 0}, {1, 0}}));
             growth.least_heights = pipeline::heights_of_flow(flow);
-            const Rays rays = grow_rays(geometry, options.layer, growth);
+            const layers::Rays rays = layers::grow_rays(geometry, options.layer, growth);
             for (std::size_t i = 0; i < rays.set.lines.size(); ++i) {
                 const Point origin = rays.set.lines[i].origin;
                 const double height = rays.heights.of(i)[rays.counts[i]];
@@ -62,7 +63,8 @@ TEST(FlowGuidance, LayersAreThickerThanBoundaryLayersAtAnyReynoldsNumber) {
                     EXPECT_GE(height, std::min(1.3 * thickness_near(flow.elements[0], origin), 0.079)) << origin.x;
                 }
             }
-            for (const std::string& finding : check_layer(close_border(rays), options.layer)) ADD_FAILURE() << finding;
+            for (const std::string& finding : check_layer(layers::close_border(rays), options.layer))
+                ADD_FAILURE() << finding;
         }
     }
 }

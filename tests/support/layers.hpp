@@ -8,6 +8,12 @@
 
 #include <lamina/layers.hpp>
 
+#include "layers/stages.hpp"
+
+namespace lamina {
+using namespace layers;  // tests call the stages of the layer by their names
+}
+
 namespace lamina::test {
 
 /// Returns the options of so many layers, each higher than the one below by the growth.
@@ -37,9 +43,9 @@ inline LayerGrowth growth_of(const LayerOptions& options) {
     return layer_growth(options, {});
 }
 
-/// Grows rays and closes the border. All lengths are in units of the shape, whatever its extent is.
+/// Makes a layer. All lengths are in units of the shape, whatever its extent is.
 inline Layer make_layer(const Geometry& geometry, const LayerOptions& options = {}, const BorderOptions& border = {}) {
-    return close_border(grow_rays(geometry, options, growth_of(options)), border);
+    return lamina::make_layer(geometry, options, growth_of(options), border);
 }
 
 /// Returns rays in a row below a wall, so far apart. The last one and the first one are neighbours as on every element.

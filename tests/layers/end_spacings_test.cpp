@@ -1,6 +1,6 @@
 // The last layers of narrow columns are lowered towards the triangles beyond, where the front and the numbers of layers
 // stay as they are.
-#include "layers/taper.hpp"
+#include "layers/end_spacings.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,6 +15,8 @@
 #include <lamina/predicates.hpp>
 
 #include "layers/layered_rays.hpp"
+#include "layers/stages.hpp"
+#include "layers/stretch.hpp"
 #include "support/layers.hpp"
 
 namespace lamina {
@@ -31,37 +33,22 @@ std::vector<double> heights_with(double max_spacing, std::size_t layers) {
 
 double last_spacing(const std::vector<double>& heights) { return heights.back() - heights[heights.size() - 2]; }
 
-TEST(Taper, ChangesTheLastLayersAndKeepsTheRest) {
+TEST(EndSpacings, AreMetBesideTheEnd) {
     for (const std::size_t layers : {8, 30, 60}) {
         const std::vector<double> before = heights_with(1e-3, layers);
-        const std::size_t half = layers / 2;
-        // Of 60 layers the last 30 change, as far as they are of one height; of fewer, the upper half.
-        const double part = layers == 60 ? 30e-3 : before[layers] - before[half];
-        const double x = last_spacing(before) / part, flat = x * (2 - x);
-        for (const double taper : {layers::most_taper, 1.2, 1.0, 0.8, 0.6, 0.3, layers::least_taper}) {
-            if (taper < flat) continue;
-            SCOPED_TRACE(testing::Message() << layers << " layers, " << taper);
+        const auto above = static_cast<std::uint32_t>(layers / 2);
+        for (const double ratio : {layers::max_end_ratio, 1.2, 1.0, 0.8, 0.6, 0.3, layers::min_end_ratio}) {
+            SCOPED_TRACE(testing::Message() << layers << " layers, " << ratio);
             std::vector<double> after = before;
-            layers::taper_heights(taper, after);
-            EXPECT_EQ(after.back(), before.back());
-            for (std::size_t n = 0; n <= std::max<std::size_t>(layers / 2, 1); ++n) EXPECT_EQ(after[n], before[n]) << n;
+            layers::stretch_heights(layers::stretch_to_last_spacing(ratio, before, above), after);
+            EXPECT_NEAR(after.back() / before.back(), 1, 1e-12);
+            EXPECT_NEAR(last_spacing(after) / last_spacing(before), ratio, 1e-9);
+            for (std::size_t n = 0; n <= above; ++n) EXPECT_EQ(after[n], before[n]) << n;
             for (std::size_t n = 1; n <= layers; ++n) {
-                EXPECT_TRUE(taper > 1 ? after[n] <= before[n] : after[n] >= before[n]) << n;
-                const double ratio = (after[n] - after[n - 1]) / (before[n] - before[n - 1]);
-                const double in_the_middle = 1 + (1 - (taper - flat) / (1 - flat)) / 3;
-                EXPECT_GT(ratio, std::min(taper, in_the_middle) - 1e-9) << n;
-                EXPECT_LT(ratio, std::max(taper, in_the_middle) + 1e-9) << n;
+                EXPECT_GT(after[n], after[n - 1]);
+                EXPECT_TRUE(ratio > 1 ? after[n] <= before[n] * (1 + 1e-12) : after[n] >= before[n] * (1 - 1e-12)) << n;
             }
-            EXPECT_NEAR(last_spacing(after) / last_spacing(before), taper, 1e-9);
         }
-    }
-}
-
-TEST(Taper, LeavesColumnsWithoutRoomAlone) {
-    for (const std::size_t layers : {0, 1}) {
-        std::vector<double> heights = heights_with(1e-3, layers);
-        layers::taper_heights(0.5, heights);
-        EXPECT_EQ(heights, heights_with(1e-3, layers));
     }
 }
 
@@ -87,14 +74,22 @@ Rays columns_apart(const std::vector<double>& widths) {
     return rays;
 }
 
+/// Returns whether the heights on a ray differ.
+bool is_changed(const LayerHeights& before, const LayerHeights& after, std::size_t ray) {
+    return !std::equal(before.of(ray).begin(), before.of(ray).end(), after.of(ray).begin(), after.of(ray).end());
+}
+
+/// Returns the ratio of the last spacing on a ray to the 1e-3 that it is in columns_apart().
+double ratio_of(const Rays& rays, std::size_t ray) { return 1e3 * layers::layered_rays(rays).last_spacing(ray); }
+
 /// Returns widths of columns that begin wide, are 4e-4 in the middle, and become wide again.
 std::vector<double> widths_from_wide_to_wide() { return test::widths_with_narrow_middle(2e-3, 4e-4, 20); }
 
-TEST(Taper, LastLayersBecomeAsHighAsColumnsAreWide) {
+TEST(EndSpacings, LastLayersBecomeAsHighAsColumnsAreWide) {
     const std::vector<double> widths = widths_from_wide_to_wide();
     Rays rays = columns_apart(widths);
     const LayerHeights before = rays.heights;
-    layers::taper_columns(rays);
+    layers::fit_end_spacings(rays);
     for (std::size_t i = 2; i + 2 < widths.size(); ++i) {
         SCOPED_TRACE(testing::Message() << "column " << i << ", " << widths[i] << " wide");
         const std::vector<double> heights(rays.heights.of(i).begin(), rays.heights.of(i).end());
@@ -103,99 +98,99 @@ TEST(Taper, LastLayersBecomeAsHighAsColumnsAreWide) {
         const double width = std::sqrt(widths[i - 1] * widths[i]);
         EXPECT_LT(last_spacing(heights), 1.3 * width) << "half of the cell has 1.5 times the area beyond";
         EXPECT_GT(last_spacing(heights), std::min(1e-3, 0.52 * width)) << "0.6 times";
-        // Rows rise by three tenths of the width of a column at most.
+        // Rows rise by a third of the width of a column at most.
         for (std::size_t n = 0; n < heights.size(); ++n)
-            EXPECT_LE(std::abs(heights[n] - rays.heights.of(i - 1)[n]), 0.3001 * widths[i - 1]) << n;
+            EXPECT_LE(std::abs(heights[n] - rays.heights.of(i - 1)[n]), 1.0 / 3 * widths[i - 1]) << n;
     }
 }
 
-TEST(Taper, LowLayersOfWideColumnsBecomeHigher) {
+TEST(EndSpacings, LowLayersOfWideColumnsBecomeHigher) {
     Rays rays = columns_apart(std::vector<double>(100, 2e-3)), wider = columns_apart(std::vector<double>(100, 4e-3));
-    layers::taper_columns(rays);
-    layers::taper_columns(wider);
-    EXPECT_NEAR(rays.heights.column(50).taper, 1.08, 1e-9) << "0.54 times as high as wide";
-    EXPECT_EQ(wider.heights.column(50).taper, layers::most_taper);
+    layers::fit_end_spacings(rays);
+    layers::fit_end_spacings(wider);
+    EXPECT_NEAR(ratio_of(rays, 50), 1.08, 1e-9) << "0.54 times as high as wide";
+    EXPECT_NEAR(ratio_of(wider, 50), layers::max_end_ratio, 1e-9);
 }
 
 /// Cells that lean are smaller than their edges say.
-TEST(Taper, CellsOfLeaningColumnsBecomeAsLargeAsUprightOnes) {
+TEST(EndSpacings, CellsOfLeaningColumnsBecomeAsLargeAsUprightOnes) {
     const Point lean = unit({1, -1});
     const auto leaning = [&](double width) {
-        Rays rays = columns_apart(std::vector<double>(400, width));
+        Rays rays = columns_apart(std::vector<double>(1000, width));
         for (RayLine& line : rays.set.lines) line.direction = lean;
         return rays;
     };
     Rays narrow = leaning(3e-4), wide = leaning(2e-3), of_quads = narrow;
     of_quads.topology = LayerTopology::quads;
-    layers::taper_columns(narrow);
-    layers::taper_columns(wide);
-    layers::taper_columns(of_quads);
-    EXPECT_NEAR(narrow.heights.column(200).taper, 0.91 * 0.3 * std::sqrt(2.0), 1e-9);
-    EXPECT_NEAR(wide.heights.column(200).taper, 0.54 * 2 * std::sqrt(2.0), 1e-9);
-    EXPECT_NEAR(of_quads.heights.column(200).taper, 0.91 * 0.3, 1e-9)
-        << "faces between quadrilaterals would be more skewed";
+    layers::fit_end_spacings(narrow);
+    layers::fit_end_spacings(wide);
+    layers::fit_end_spacings(of_quads);
+    EXPECT_NEAR(ratio_of(narrow, 500), 0.91 * 0.3 * std::sqrt(2.0), 1e-9);
+    EXPECT_NEAR(ratio_of(wide, 500), 0.54 * 2 * std::sqrt(2.0), 1e-9);
+    EXPECT_NEAR(ratio_of(of_quads, 500), 0.91 * 0.3, 1e-9) << "faces between quadrilaterals would be more skewed";
 }
 
 /// Low cells of wide columns ask narrow ones beside them for higher ones, which would be far higher than wide there.
-TEST(Taper, WideColumnsMakeNoNarrowOnesTooHigh) {
+TEST(EndSpacings, WideColumnsMakeNoNarrowOnesTooHigh) {
     std::vector<double> widths(60, 4e-4);
     widths.insert(widths.end(), 340, 3e-3);
     Rays rays = columns_apart(widths);
-    layers::taper_columns(rays);
-    EXPECT_GT(rays.heights.column(90).taper, 1.5);
-    EXPECT_LE(rays.heights.column(58).taper * 1e-3, 1.2 * 4e-4 + 1e-12);
+    layers::fit_end_spacings(rays);
+    EXPECT_GT(ratio_of(rays, 90), 1.5);
+    EXPECT_LE(ratio_of(rays, 58) * 1e-3, 1.2 * 4e-4 + 1e-12);
 }
 
 /// Where numbers of layers change, fronts rise by up to a quarter of the width.
-TEST(Taper, LastLayersAreHigherWhereNumbersOfLayersChange) {
+TEST(EndSpacings, LastLayersAreHigherWhereNumbersOfLayersChange) {
     Rays rays = columns_apart(std::vector<double>(400, 1.5e-3));
     for (std::size_t i = 200; i < 400; ++i) rays.counts[i] = 59;
-    layers::taper_columns(rays);
+    layers::fit_end_spacings(rays);
     // Beside the change the front's edges are level on one side and rise by a layer on the other, where the cell is as large
     // as a square on the edge when it is edge * edge / width high.
     const double rising = (1.5e-3 * 1.5e-3 + 1e-6) / 1.5e-3, square = 1e3 * std::sqrt(1.5e-3 * rising);
-    EXPECT_NEAR(rays.heights.column(199).taper, 0.86 * square, 1e-9);
-    EXPECT_NEAR(rays.heights.column(200).taper, 0.86 * square, 1e-9);
-    EXPECT_EQ(rays.heights.column(50).taper, 1);
+    EXPECT_NEAR(ratio_of(rays, 199), 0.86 * square, 1e-9);
+    EXPECT_NEAR(ratio_of(rays, 200), 0.86 * square, 1e-9);
+    EXPECT_NEAR(ratio_of(rays, 50), 1, 1e-9);
     // Not where narrow columns beside would have cells far higher than wide.
     std::vector<double> widths(400, 1.5e-3);
     for (std::size_t i = 203; i < 400; ++i) widths[i] = 4e-4;
     Rays narrow = columns_apart(widths);
     narrow.counts.assign(400, 60);
     for (std::size_t i = 200; i < 400; ++i) narrow.counts[i] = 59;
-    layers::taper_columns(narrow);
-    EXPECT_LT(narrow.heights.column(200).taper, 1);
+    layers::fit_end_spacings(narrow);
+    EXPECT_LT(ratio_of(narrow, 200), 1);
 }
 
 /// The last layer of two cannot become lower without the one below becoming as much higher.
-TEST(Taper, ColumnsOfFewLayersStay) {
+TEST(EndSpacings, ColumnsOfFewLayersStay) {
     for (const std::uint32_t layers : {2, 3, 4, 60}) {
         Rays rays = columns_apart(std::vector<double>(50, 3e-4));
         rays.counts.assign(50, layers);
         const std::vector<double> table = heights_with(1e-5, 60);
         rays.heights = alike(table, 50);
         for (RayLine& line : rays.set.lines) line.origin.x *= 1e-5 / 3e-4 * 0.5;
-        layers::taper_columns(rays);
-        EXPECT_EQ(rays.heights.column(25).taper != 1, layers == 60) << layers << " layers";
+        const LayerHeights before = rays.heights;
+        layers::fit_end_spacings(rays);
+        EXPECT_EQ(is_changed(before, rays.heights, 25), layers == 60) << layers << " layers";
     }
 }
 
 /// With a slope of less than 0 at the front, the layer below would be more than three times as high as the last one.
-TEST(Taper, LayersNeverTripleFromRowToRow) {
+TEST(EndSpacings, LayersNeverTripleFromRowToRow) {
     for (const double width : {1e-3, 3e-4, 1e-4, 1e-5}) {
         Rays rays = columns_apart(std::vector<double>(100, width));
-        layers::taper_columns(rays);
+        layers::fit_end_spacings(rays);
         const std::span<const double> heights = rays.heights.of(50);
         for (std::size_t n = 31; n + 1 < heights.size(); ++n)
             EXPECT_LT(heights[n] - heights[n - 1], 3 * (heights[n + 1] - heights[n])) << width << ", layer " << n;
     }
 }
 
-TEST(Taper, RequestedNumbersOfLayersKeepTheirHeights) {
+TEST(EndSpacings, RequestedNumbersOfLayersKeepTheirHeights) {
     Rays rays = columns_apart(widths_from_wide_to_wide());
     const std::vector<double> table = rays.heights.table();
     rays.growth.layers = 60;
-    layers::taper_columns(rays);
+    layers::fit_end_spacings(rays);
     EXPECT_EQ(rays.heights.table(), table);
 }
 
@@ -217,12 +212,12 @@ bool are_sound(const layers::LayeredRays& rays, std::size_t i) {
 
 /// Columns between rays with sound cells.
 struct SoundColumns {
-    std::size_t tapered = 0, left = 0;
+    std::size_t changed = 0, left = 0;
 };
 
-/// Tapers random columns of this topology, under fronts that rise by up to `steepest` of the width from ray to ray. Expects
-/// that columns with sound cells keep them, and returns how many of these are tapered.
-SoundColumns taper_random_columns(LayerTopology topology, double steepest) {
+/// Fits the last spacings of random columns of this topology, under fronts that rise by up to `steepest` of the width from ray to ray. Expects
+/// that columns with sound cells keep them, and returns how many of these are changed.
+SoundColumns fit_random_columns(LayerTopology topology, double steepest) {
     std::mt19937 random(7);
     const auto real = [&](double low, double high) {
         return std::uniform_real_distribution<double>(low, high)(random);
@@ -248,27 +243,27 @@ SoundColumns taper_random_columns(LayerTopology topology, double steepest) {
         }
         rays.heights = LayerHeights(table, columns);
         const LayerHeights before = rays.heights;
-        layers::taper_columns(rays);
+        layers::fit_end_spacings(rays);
         for (std::size_t i = 1; i + 2 < widths.size(); ++i) {
             if (!are_sound({rays.set, before, rays.counts}, i)) continue;
             EXPECT_TRUE(are_sound(layers::layered_rays(rays), i)) << "round " << round << ", column " << i;
-            const bool is_tapered = rays.heights.column(i).taper != 1 || rays.heights.column(i + 1).taper != 1;
-            (is_tapered ? sound.tapered : sound.left) += 1;
+            const bool changed = is_changed(before, rays.heights, i) || is_changed(before, rays.heights, i + 1);
+            (changed ? sound.changed : sound.left) += 1;
         }
     }
     return sound;
 }
 
-/// Rows of neighbours that are tapered differently rise, and may do so where fronts and numbers of layers are steep
+/// Rows of neighbours whose last spacings are changed differently rise, and may do so where fronts and numbers of layers are steep
 /// already.
-TEST(Taper, CrossesNoCells) {
-    // Limits let fronts rise by a quarter of the width. Six widths are a hard case: columns of triangles are tapered
-    // more differently there, since wide ones do not raise narrow ones, and more tapers are taken back whole.
-    const SoundColumns of_quads = taper_random_columns(LayerTopology::quads, 6);
-    const SoundColumns of_triangles = taper_random_columns(LayerTopology::layered, 0.25);
-    const SoundColumns of_steep_triangles = taper_random_columns(LayerTopology::layered, 6);
+TEST(EndSpacings, CrossesNoCells) {
+    // Limits let fronts rise by a quarter of the width. Six widths are a hard case: columns of triangles are changed
+    // more differently there, since wide ones do not raise narrow ones, and more changes are taken back whole.
+    const SoundColumns of_quads = fit_random_columns(LayerTopology::quads, 6);
+    const SoundColumns of_triangles = fit_random_columns(LayerTopology::layered, 0.25);
+    const SoundColumns of_steep_triangles = fit_random_columns(LayerTopology::layered, 6);
     for (const SoundColumns* sound : {&of_quads, &of_triangles, &of_steep_triangles})
-        EXPECT_GT(sound->tapered, 10'000u);
+        EXPECT_GT(sound->changed, 10'000u);
 }
 
 }  // namespace

@@ -1,0 +1,180 @@
+// The stages of the layer, and what goes from one to the next: grow_rays() -> Rays, close_border() -> Layer.
+// docs/layer.md says how rays are made.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <lamina/geometry.hpp>
+#include <lamina/layers.hpp>
+#include <lamina/point.hpp>
+
+namespace lamina::layers {
+
+/// The origin and the direction of a ray.
+struct RayLine {
+    Point origin;                     ///< a point of the wall, or of a wake
+    Point direction;                  ///< unit vector
+    RayPlace place = RayPlace::wall;  ///< where it stands
+    /// Its first height over the one wanted: above 1 along wakes, below 1 where a wall has no room
+    /// (docs/layer.md).
+    double opening = 1;
+    double least_height = 0;  ///< that of its column: LayerGrowth::least_heights or WakePoint
+    /// Height along the ray over the height above the wall's edges beside it, which the growth law gives: 1 for a ray
+    /// along their normals, 1.41 for one out of a cove corner of 90 degrees; at most max_slant.
+    double slant = 1;
+    /// All points of its layers lie beside the line by this vector, so that the first layer has its height above both
+    /// edges at a corner out of which the ray leans; zero elsewhere (docs/layer.md).
+    Point shift{};
+    /// The wall's vertices between this ray and the next one, in their order: a sharp concave corner and those so near
+    /// to it that no first layer fits between its sides. They have no rays. Empty elsewhere (docs/layer.md).
+    std::vector<Point> corner_after{};
+};
+
+/// A stretch makes a column of layers end at a given height, with a given last spacing. Layers up to `above` keep their
+/// heights. The growth from layer to layer above it is that of the law times `factor`, times factor * change, times
+/// factor * change^2, and so on.
+struct Stretch {
+    double factor = 1;        ///< 1 where nothing is stretched
+    double change = 1;        ///< 1 where the last spacing is free
+    std::uint32_t above = 0;  ///< at least 1 where anything is stretched: the first layer never is
+};
+
+/// The column of heights on one ray: a part of LayerHeights::table().
+struct HeightColumn {
+    std::size_t first = 0;           ///< index in the table where the column begins
+    std::uint32_t layers = 0;        ///< number of layers up to the front
+    std::uint32_t asked_layers = 0;  ///< number of layers up to the asked height
+    bool cut = false;                ///< whether the front is lower than the asked height
+    double growth = 0;               ///< as Ray::growth
+    Stretch stretch{};               ///< of its upper half; none with all the layers of a requested number
+};
+
+/// The heights of layers up to the front, ray by ray.
+class LayerHeights {
+public:
+    LayerHeights() = default;
+    /// Makes heights from a table and the column of each ray. Precondition: the columns lie within the table.
+    LayerHeights(std::vector<double> table, std::vector<HeightColumn> columns)
+        : table_(std::move(table)), columns_(std::move(columns)) {}
+
+    /// Returns the column of a ray.
+    const HeightColumn& column(std::size_t ray) const { return columns_[ray]; }
+    /// Returns the heights on a ray. Entry n is the height of layer n, and entry 0 is 0.
+    std::span<const double> of(std::size_t ray) const {
+        const HeightColumn& column = columns_[ray];
+        return {table_.data() + column.first, column.layers + std::size_t{1}};
+    }
+    /// Returns the heights of all columns, one column after the other.
+    const std::vector<double>& table() const { return table_; }
+
+private:
+    std::vector<double> table_;
+    std::vector<HeightColumn> columns_;
+};
+
+/// The rays of all elements, one element after the other. Element e owns the rays [begin[e], begin[e + 1]) in
+/// counter-clockwise order; the first one follows the last. An element with a wake begins at the left side of its
+/// trailing edge, and its last rays are those of the wake, out to its end and back. A sharp trailing edge then is the
+/// origin of a ray on either side; a base has no rays.
+struct RaySet {
+    std::vector<RayLine> lines;         ///< the rays
+    std::vector<std::size_t> begin{0};  ///< the first ray of each element, then the number of rays
+
+    /// Returns the number of elements.
+    std::size_t elements() const { return begin.size() - 1; }
+    /// Returns, for each ray, the index of the ray that follows counter-clockwise round its element.
+    std::vector<std::size_t> following() const;
+};
+
+/// The space between a blunt base and the point behind it where both sides of a wake meet, cut into strips between
+/// chains of points that run from the right to the left of the flow.
+struct WakeCore {
+    std::size_t element = 0;                 ///< index of the element
+    std::vector<std::vector<Point>> chains;  ///< the first one is the base, the last one a point
+    /// Indices of the chains that end at stations, which are the origins of rays, ascending. The chains between have
+    /// the ends of the chain before.
+    std::vector<std::size_t> stations;
+};
+
+/// The rays and the number of layers on each. If the layer is disabled, each wall vertex has one ray without a
+/// direction and without layers.
+struct Rays {
+    RaySet set;                   ///< origins and directions
+    std::vector<char> resampled;  ///< one per element: Element::resampled
+    /// One per element: whether it is resampled between so many corners that it is not smooth, as iced ones are. Rays
+    /// stand at its vertices alone, lest neighbouring edges differ by whole factors (docs/layer.md).
+    std::vector<char> jagged;
+    bool enabled = true;  ///< LayerOptions::enabled
+    /// LayerOptions::topology. Last layers of quadrilaterals are not made higher where rays lean or numbers of layers
+    /// change, since faces between them would be more skewed for it (docs/layer.md). Tops of cells of the grid on
+    /// resampled walls stay whole where they are little longer than asked for: a point on a flat one makes an angle near
+    /// 180 degrees, where a Delaunay triangulation joins it to points farther below.
+    LayerTopology topology = LayerTopology::layered;
+    LayerGrowth growth;                 ///< the growth that was requested
+    std::vector<double> asked;          ///< height along each ray at which its layers are to end; empty if disabled
+    std::vector<double> limits;         ///< height beyond which something is in a ray's way; empty if disabled
+    std::vector<double> front;          ///< height at which the columns end, at most the asked one; empty if disabled
+    LayerHeights heights;               ///< the columns up to the front
+    std::vector<std::uint32_t> counts;  ///< number of layers on each ray
+    std::vector<double> wake_lengths;   ///< one per element: length of the wake with layers, 0 without
+    std::vector<WakeCore> cores;        ///< behind bases of elements whose layers go on along a wake
+};
+
+/// Grows rays from the walls: one along the normal of each vertex, fans at sharp corners and refining rays between
+/// them. Finds the limit of each ray and the number of layers that fit below it. Neighbouring rays differ by at most
+/// one layer, every cell between them is positively oriented, and the fronts are simple and disjoint. Precondition:
+/// check_simple(geometry). Throws OptionError for options out of range, for heights below the resolution of the
+/// coordinates and for layers absurdly thicker than the input is wide.
+Rays grow_rays(const Geometry& geometry, const LayerOptions& options, const LayerGrowth& growth);
+
+/// A circle.
+struct Circle {
+    Point middle;       ///< its middle
+    double radius = 0;  ///< in units of the input
+};
+
+/// Lowers the limits of the rays that end in one of these circles to a part of their heights, leads the limits over to
+/// those beside, and finds the numbers of layers anew. No rays are added where numbers of layers change. Returns, for
+/// each circle, how many rays with layers end in it.
+std::vector<std::size_t> shorten_rays(std::span<const Circle> places, Rays& rays);
+
+/// Returns, for each element, its front: the closed polygon through the tips of its rays, counter-clockwise.
+std::vector<std::vector<Point>> fronts(const Rays& rays);
+
+/// Layers on a ray that leaves the wall's edges at an angle are at most this many times as high along the ray as above
+/// the edges.
+inline constexpr double max_slant = 2;
+
+/// The growth of layers that are stretched differs from the requested growth by at most this factor.
+inline constexpr double max_stretch = 1.06;
+
+/// Returns the spacings of resampled walls with which their fronts would need no division by these options, wherever
+/// they need one: limits for the stage "prepare" (docs/decisions/0017). Throws OptionError for options out of range.
+std::vector<WallSpacing> wall_spacings(const Rays& rays, const BorderOptions& options);
+
+/// Places the points on the rays and divides the fronts, which become outer borders that can be frozen. Throws
+/// OptionError for options out of range.
+Layer close_border(const Rays& rays, const BorderOptions& options = {});
+
+/// A cell of a layer with a large angle.
+struct ObtuseCell {
+    std::uint32_t column;  ///< LayerCells::triangle_column or quad_column
+    std::uint16_t layer;   ///< LayerCells::triangle_layer or quad_layer
+};
+
+/// Returns the cells of a layer that have an angle above this one, which is obtuse, but for those of columns with a ray
+/// that is nearer than its supplement to the walls on both sides: they cannot do without. Cells behind bases and of
+/// LayerTopology::delaunay have no columns, so none of them is found.
+std::vector<ObtuseCell> obtuse_cells(const Layer& layer, const LayerCells& cells, double max_angle_deg);
+
+/// Lowers the limits of the rays beside these cells so that columns end below them, but for the first layer; leads the
+/// limits over to those beside, and finds the numbers of layers anew, as shorten_rays() does. Returns whether it
+/// changed any.
+bool end_columns_below(std::span<const ObtuseCell> cells, Rays& rays);
+
+}  // namespace lamina::layers
