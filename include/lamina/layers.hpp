@@ -57,8 +57,6 @@ struct YPlus {
 
 /// Neighbouring rays of jagged walls diverge by up to this angle (LayerOptions::max_ray_angle_deg), in degrees.
 inline constexpr double max_jagged_ray_angle_deg = 20;
-/// Neighbouring rays of fans that are cut short on jagged walls diverge by up to this angle, in degrees.
-inline constexpr double max_low_fan_angle_deg = 30;
 
 /// Options of the layer.
 struct LayerOptions {
@@ -72,8 +70,8 @@ struct LayerOptions {
     /// to the neighbouring rays.
     std::optional<std::uint32_t> layers{};
     std::optional<Length> thickness{};  ///< height above the wall beyond which no layer goes; T of the exponential law
-    /// Largest angle between neighbouring rays. On jagged walls (Layer::jagged) it may be max_jagged_ray_angle_deg, in
-    /// fans that are cut short max_low_fan_angle_deg, and more where rays converge.
+    /// Largest angle between neighbouring rays. On jagged walls (Layer::jagged) it may be max_jagged_ray_angle_deg, and
+    /// more where rays converge.
     double max_ray_angle_deg = 5;
     CornerRays corners = CornerRays::fan;  ///< the rays at sharp convex corners
     /// Number of rays of each fan. Every other vertex then has one ray, whatever the angle to its neighbours, so that

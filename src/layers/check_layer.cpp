@@ -149,14 +149,13 @@ private:
         }
     }
 
-    /// Returns whether the angle from a ray of an element to the next one, in a fan or not, is small enough.
-    bool is_ray_angle_allowed(double angle, std::size_t element, bool in_fan) const {
+    /// Returns whether the angle from a ray of an element to the next one is small enough.
+    bool is_ray_angle_allowed(double angle, std::size_t element) const {
         constexpr double rounding = 1e-9;
         if (options_.fan_rays) return true;
         const bool jagged = element < layer_.jagged.size() && layer_.jagged[element];
         if (!jagged) return std::abs(angle) <= core::radians(options_.max_ray_angle_deg) + rounding;
-        const double most_deg = in_fan ? max_low_fan_angle_deg : max_jagged_ray_angle_deg;
-        return angle <= core::radians(std::max(options_.max_ray_angle_deg, most_deg)) + rounding;
+        return angle <= core::radians(std::max(options_.max_ray_angle_deg, max_jagged_ray_angle_deg)) + rounding;
     }
 
     /// Checks that rays stand in the order of the wall, and that neighbours differ by one layer and the largest ray
@@ -180,7 +179,7 @@ private:
                     report("neighbouring rays differ by more than one layer", origin);
                 const double angle = core::angle_between(ray.direction, next.direction);
                 const bool ends_wake = ray.place == RayPlace::wake_end || next.place == RayPlace::wake_end;
-                if (!is_ray_angle_allowed(angle, e, ray.origin == next.origin) && !ends_wake)
+                if (!is_ray_angle_allowed(angle, e) && !ends_wake)
                     report(fmt::format("{} degrees between rays", core::degrees(angle)), origin);
                 check_heights(ray, growth);
             }

@@ -9,17 +9,14 @@
 #include <lamina/layers.hpp>
 
 #include "core/bounding_box.hpp"
-#include "layers/corner_shifts.hpp"
-#include "layers/heights.hpp"
+#include "layers/directions/corners.hpp"
+#include "layers/directions/rays.hpp"
+#include "layers/heights/heights.hpp"
 #include "layers/layered_rays.hpp"
-#include "layers/least_heights.hpp"
-#include "layers/low_fans.hpp"
 #include "layers/mechanisms.hpp"
-#include "layers/rays.hpp"
-#include "layers/sharp_corners.hpp"
+#include "layers/room/truncation.hpp"
 #include "layers/stages.hpp"
-#include "layers/truncation.hpp"
-#include "layers/wake_outline.hpp"
+#include "layers/wake/wake_outline.hpp"
 
 namespace lamina::layers {
 
@@ -121,7 +118,7 @@ void fit_first_layers(Rays& rays) {
 void count_layers_on_all_rays(Rays& rays) {
     constexpr int max_rounds = 6;
     for (int round = 0;; ++round) {
-        shift_rays_of_corners(rays.jagged, rays.growth, rays.set);
+        shift_rays_of_corners(rays.growth, rays.set);
         fit_and_count_layers(rays);
         if (round == max_rounds || !uses("lower_first")) return;
         const auto share = [&](std::size_t i) { return rays.counts[i] == 0 ? 0.5 : 1; };
@@ -134,7 +131,6 @@ void grow_from(const Geometry& geometry, std::span<const DividedWake> wakes, con
     rays.set = rays_of(geometry, wakes, options, rays.growth);
     measure_room(rays);
     require_sensible_scale(bounding_box(geometry), rays.growth, rays.asked);
-    if (!options.fan_rays && uses("low_fans")) replace_rays(leave_out_rays_of_low_fans(rays), rays);
     if (uses("fit_first")) fit_first_layers(rays);
     count_layers_on_all_rays(rays);
 }

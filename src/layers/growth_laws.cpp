@@ -8,7 +8,7 @@
 #include <lamina/error.hpp>
 
 #include "core/reproducible_math.hpp"
-#include "layers/isotropy.hpp"
+#include "layers/heights/isotropy.hpp"
 #include "layers/stages.hpp"
 
 namespace lamina::layers {

@@ -19,7 +19,7 @@
 #include "decoupling/cut_region.hpp"
 #include "decoupling/far_field.hpp"
 #include "decoupling/refine_all.hpp"
-#include "layers/fill.hpp"
+#include "layers/cells/fill.hpp"
 #include "layers/stages.hpp"
 #include "pipeline/assemble.hpp"
 #include "pipeline/checked_pieces.hpp"

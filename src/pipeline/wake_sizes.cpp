@@ -14,10 +14,10 @@
 
 #include "core/bounding_box.hpp"
 #include "core/box_tree.hpp"
-#include "layers/front.hpp"
+#include "layers/border/close_border.hpp"
+#include "layers/border/target_length.hpp"
 #include "layers/layered_rays.hpp"
 #include "layers/stages.hpp"
-#include "layers/target_length.hpp"
 
 namespace lamina::pipeline {
 

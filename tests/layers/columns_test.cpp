@@ -11,9 +11,8 @@
 
 #include "core/angles.hpp"
 #include "layers/checked_layer.hpp"
-#include "layers/heights.hpp"
+#include "layers/heights/heights.hpp"
 #include "layers/layered_rays.hpp"
-#include "layers/neighbours.hpp"
 #include "layers/stages.hpp"
 #include "support/layers.hpp"
 #include "support/shapes.hpp"

@@ -12,11 +12,10 @@
 
 #include "core/angles.hpp"
 #include "core/parallel.hpp"
-#include "layers/connect.hpp"
+#include "layers/cells/connect.hpp"
+#include "layers/cells/fill.hpp"
+#include "layers/cells/strip.hpp"
 #include "layers/expect_cover.hpp"
-#include "layers/fill.hpp"
-#include "layers/join_triangles.hpp"
-#include "layers/strip.hpp"
 #include "support/layers.hpp"
 #include "support/shapes.hpp"
 
@@ -192,51 +191,6 @@ TEST(Connect, ALowCellWithADividedTopIsCutIntoTrianglesAlone) {
     ASSERT_TRUE(layers::StripCutter(points).cut(std::vector{a, d}, std::vector{b, q, c}, true, triangles));
     EXPECT_FALSE(layers::join_on_lower_edge(points, a, d, true, 0, triangles));
     EXPECT_EQ(triangles.size(), 3u);
-}
-
-/// The step lies below a front that falls from its higher ray, and the cells beyond that ray are wide: so the side of
-/// the step on that ray, from `a` to `e`, has the middles of both cells on its lower half.
-TEST(Connect, DiagonalsOfAStepKeepItsSideStraight) {
-    const std::vector<Point> points{{0.204, 0.611},  {-0.205, -0.612}, {-3.483, -0.281}, {0.612, 1.832},
-                                    {-0.675, 1.513}, {-1.864, 1.219},  {-2.955, 0.948}};
-    const VertexId e{0}, a{1}, d{2}, b{3}, q{4}, r{5}, c{6};
-    const std::vector<VertexId> lower{e, a, d}, upper{b, q, r, c};
-    const layers::CellSide side{a, e, {2.33, 0.41}};
-    const auto skewness_after = [&](bool with_turn, const std::vector<VertexId>& from, const std::vector<VertexId>& to,
-                                    bool mirrored) {
-        std::vector<Point> at = points;
-        layers::CellSide at_side = side;
-        if (mirrored) {
-            for (Point& p : at) p.x = -p.x;
-            at_side.beyond.x = -side.beyond.x;
-        }
-        std::vector<Triangle> triangles;
-        EXPECT_TRUE(layers::StripCutter(at).cut(from, to, true, triangles));
-        const std::array<VertexId, 2> edge = mirrored ? std::array{d, a} : std::array{a, d};
-        if (with_turn) layers::turn_from_side(at, from, edge, at_side, true, 0, triangles);
-        EXPECT_TRUE(layers::join_on_lower_edge(at, edge[0], edge[1], true, 0, triangles));
-        EXPECT_EQ(triangles.size(), 3u);
-        double off = HUGE_VAL;
-        for (const Triangle& t : triangles) {
-            const Point p[] = {at[t.v[0].index()], at[t.v[1].index()], at[t.v[2].index()]};
-            EXPECT_GT(orient2d(p[0], p[1], p[2]), 0);
-            if (std::count(t.v, t.v + 3, a) == 0 || std::count(t.v, t.v + 3, e) == 0) continue;
-            const Point middle = midpoint(at[a.index()], at[e.index()]), along = at[e.index()] - at[a.index()];
-            const Point own = 1.0 / 3 * (p[0] + p[1] + p[2]), across = at_side.beyond - own;
-            const Point face = own + (cross(middle - own, along) / cross(across, along)) * across;
-            off = 2 * distance(face, middle) / length(along);
-        }
-        return off;
-    };
-    for (const bool mirrored : {false, true}) {
-        std::vector<VertexId> from = lower, to = upper;
-        if (mirrored) {
-            std::reverse(from.begin(), from.end());
-            std::reverse(to.begin(), to.end());
-        }
-        EXPECT_GT(skewness_after(false, from, to, mirrored), 0.75);
-        EXPECT_LT(skewness_after(true, from, to, mirrored), 0.7);
-    }
 }
 
 TEST(Connect, GentleCurvatureHasTheRowsOfTheDelaunayTriangulation) {

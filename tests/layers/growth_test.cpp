@@ -11,7 +11,7 @@
 #include "layers/checked_layer.hpp"
 #include "layers/compare_points.hpp"
 #include "layers/growth_laws.hpp"
-#include "layers/heights.hpp"
+#include "layers/heights/heights.hpp"
 #include "layers/stages.hpp"
 #include "support/layers.hpp"
 #include "support/shapes.hpp"

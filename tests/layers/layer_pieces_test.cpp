@@ -7,7 +7,7 @@
 #include <lamina/layers.hpp>
 
 #include "core/parallel.hpp"
-#include "layers/fill.hpp"
+#include "layers/cells/fill.hpp"
 #include "support/layers.hpp"
 #include "support/point_sets.hpp"
 #include "support/shapes.hpp"

@@ -1,5 +1,5 @@
 // The chain problem of leans, against an independent solver and its conditions of optimality.
-#include "layers/lean_chain.hpp"
+#include "layers/directions/lean_chain.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +11,6 @@
 
 namespace lamina::layers {
 namespace {
-
-constexpr double weight = 30;
 
 struct Problem {
     std::vector<ColumnLack> lacks;
@@ -41,14 +39,14 @@ double value_of(const Problem& p, const std::vector<double>& leans) {
         const double opening = next_of(leans, k) - leans[k];
         const double wanted = std::max(p.lacks[k].wanted - opening, 0.0),
                      least = std::max(p.lacks[k].least - opening, 0.0);
-        sum += wanted * wanted + weight * least * least + p.stiffness * leans[k] * leans[k];
+        sum += wanted * wanted + least * least + p.stiffness * leans[k] * leans[k];
     }
     return sum;
 }
 
 /// Returns the slope of half the term of a column by the angle that its rays diverge by, with the sign changed.
 double pull_of(const ColumnLack& lack, double opening) {
-    return std::max(lack.wanted - opening, 0.0) + weight * std::max(lack.least - opening, 0.0);
+    return std::max(lack.wanted - opening, 0.0) + std::max(lack.least - opening, 0.0);
 }
 
 /// Returns the largest violation of the conditions of optimality: by how much a lean could go on downhill.
@@ -93,7 +91,7 @@ TEST(LeanChain, IsTheMinimum) {
     core::Random random(1);
     for (int trial = 0; trial < 2000; ++trial) {
         const Problem p = random_problem(3 + random.below(trial % 10 == 0 ? 2000 : 60), random);
-        const ChainLeans found = minimise_leans(p.lacks, p.bounds, weight, p.stiffness);
+        const ChainLeans found = minimise_leans(p.lacks, p.bounds, p.stiffness);
         for (std::size_t i = 0; i < found.leans.size(); ++i) {
             EXPECT_GE(found.leans[i], p.bounds[i].least);
             EXPECT_LE(found.leans[i], p.bounds[i].most);
@@ -107,8 +105,7 @@ TEST(LeanChain, EqualsAnIndependentSolution) {
     core::Random random(2);
     for (int trial = 0; trial < 40; ++trial) {
         const Problem p = random_problem(3 + random.below(20), random);
-        const std::vector<double> found = minimise_leans(p.lacks, p.bounds, weight, p.stiffness).leans,
-                                  other = descend(p);
+        const std::vector<double> found = minimise_leans(p.lacks, p.bounds, p.stiffness).leans, other = descend(p);
         for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], other[i], 0.01) << trial << " " << i;
         EXPECT_LE(value_of(p, found), value_of(p, other) + 1e-14);
     }
@@ -124,9 +121,8 @@ TEST(LeanChain, TreatsBothDirectionsAlike) {
             mirrored.lacks[k] = p.lacks[(2 * n - 2 - k) % n];
             mirrored.bounds[k] = {-p.bounds[n - 1 - k].most, -p.bounds[n - 1 - k].least};
         }
-        const std::vector<double> leans = minimise_leans(p.lacks, p.bounds, weight, p.stiffness).leans,
-                                  twin =
-                                      minimise_leans(mirrored.lacks, mirrored.bounds, weight, mirrored.stiffness).leans;
+        const std::vector<double> leans = minimise_leans(p.lacks, p.bounds, p.stiffness).leans,
+                                  twin = minimise_leans(mirrored.lacks, mirrored.bounds, mirrored.stiffness).leans;
         for (std::size_t i = 0; i < n; ++i) EXPECT_NEAR(leans[i], -twin[n - 1 - i], 1e-12);
     }
 }
@@ -136,7 +132,7 @@ TEST(LeanChain, SharesALackBetweenBothSides) {
     const std::size_t n = 101;
     Problem p{std::vector<ColumnLack>(n, {-1, -1}), std::vector<LeanBounds>(n, {-1, 1}), 1e-3};
     p.lacks[50].wanted = 0.2;
-    const std::vector<double> leans = minimise_leans(p.lacks, p.bounds, weight, p.stiffness).leans;
+    const std::vector<double> leans = minimise_leans(p.lacks, p.bounds, p.stiffness).leans;
     EXPECT_NEAR(leans[50], -leans[51], 1e-14);
     EXPECT_NEAR(leans[51] - leans[50], 0.2, 1e-3);
     EXPECT_EQ(leans[49], 0);

@@ -8,7 +8,7 @@
 #include <lamina/layers.hpp>
 
 #include "core/angles.hpp"
-#include "layers/rays.hpp"
+#include "layers/directions/rays.hpp"
 #include "layers/stages.hpp"
 #include "support/layers.hpp"
 #include "support/shapes.hpp"
@@ -124,8 +124,8 @@ TEST(Leans, SmallCornersLeanWithTheirNeighbours) {
         }
         return least;
     };
-    EXPECT_LT(most_converging_deg(layers::OutlineKind::given), -4);
-    EXPECT_GT(most_converging_deg(layers::OutlineKind::jagged), -1.5);
+    EXPECT_LT(most_converging_deg(layers::OutlineKind::given), -3);
+    EXPECT_GT(most_converging_deg(layers::OutlineKind::jagged), -3.5);
 }
 
 }  // namespace

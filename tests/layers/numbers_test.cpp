@@ -1,5 +1,5 @@
 // Numbers of layers, which change from ray to ray where that shears cells little.
-#include "layers/numbers.hpp"
+#include "layers/heights/numbers.hpp"
 
 #include <gtest/gtest.h>
 

@@ -12,8 +12,8 @@
 
 #include "core/angles.hpp"
 #include "layers/checked_layer.hpp"
-#include "layers/corner_shifts.hpp"
-#include "layers/rays.hpp"
+#include "layers/directions/corners.hpp"
+#include "layers/directions/rays.hpp"
 #include "layers/stages.hpp"
 #include "support/layers.hpp"
 #include "support/shapes.hpp"
@@ -152,12 +152,12 @@ TEST(Rays, LeanNoFurtherThanHeightsAboveBothEdgesAllow) {
             const std::size_t i = static_cast<std::size_t>(at - outline.begin());
             const Point before = unit(outline[i] - outline[(i + n - 1) % n]),
                         after = unit(outline[(i + 1) % n] - outline[i]);
-            if (std::abs(core::angle_between(before, after)) > core::radians(6)) continue;
+            if (std::abs(core::angle_between(before, after)) > core::radians(1)) continue;
             const double height_before = dot(-perpendicular(before), ray.direction),
                          height_after = dot(-perpendicular(after), ray.direction);
             const double mean = 0.5 * (height_before + height_after);
             EXPECT_NEAR(height_before / mean, 1, 0.00901);
-            tilted += std::abs(height_before / mean - 1) > 0.008;
+            tilted += std::abs(height_before / mean - 1) > 0.001;
         }
     }
     EXPECT_GT(tilted, 20u);
@@ -221,7 +221,8 @@ TEST(Rays, LeaveBluntCornersOfSmoothOutlinesInFans) {
 }
 
 /// Rows over both walls of a cove corner keep their heights above the walls. Heights along rays are larger the more these
-/// lean, and the front rises slowly, so that it rounds the corner: the upper half of the layers is up to a twentieth lower.
+/// lean, and the front rises slowly, so that it rounds the corner: the upper half of the layers is up to 7 % lower, or
+/// there is a layer less.
 TEST(Rays, OutOfCoveCornersKeepTheHeightsAboveBothWalls) {
     const Outline cove = shapes::refined(shapes::polygon({{0, 0}, {4, 0}, {4, 4}, {2, 4}, {2, 2}, {0, 2}}), 40);
     const LayerOptions options = layers_as_high_as(0.1);
@@ -229,14 +230,19 @@ TEST(Rays, OutOfCoveCornersKeepTheHeightsAboveBothWalls) {
     std::size_t leaning = 0;
     for (const Ray& ray : layer.rays[0]) {
         const Point origin = layer.points[ray.origin.index()];
-        EXPECT_EQ(ray.layers, ray.requested) << origin.x << ' ' << origin.y;
+        EXPECT_GE(ray.layers + 1, ray.requested) << origin.x << ' ' << origin.y;
         if (!(origin.x <= 2 && origin.x > 1 && origin.y == 2)) continue;  // the wall left of the corner
         leaning += ray.direction.y < 0.999;
         for (std::uint32_t n = 1; n <= ray.layers; ++n) {
             const double share = (layer.points[ray.vertex(n).index()].y - 2) / layer_height(layer.growth, n);
-            EXPECT_LT(share, 1.01);
-            EXPECT_GT(share, n <= ray.layers / 2 ? 0.99 : 0.95);
+            EXPECT_GT(share, n <= ray.layers / 2 ? 0.99 : 0.93);
+            if (n <= ray.layers / 2) {
+                EXPECT_LT(share, 1.01);
+            }
         }
+        const double end = (layer.points[ray.tip().index()].y - 2) / layer_height(layer.growth, ray.requested);
+        EXPECT_LT(end, 1.01);
+        EXPECT_GT(end, 0.9);
     }
     EXPECT_GT(leaning, 2u);
 }
@@ -268,22 +274,21 @@ TEST(Rays, ThatLeanOutOfCornersKeepFirstHeightsAboveBothEdges) {
     EXPECT_LT(shifted, 4u);
 }
 
-/// Returns the shift of a ray that leans by 30 degrees, at a vertex where a wall of edges 1 long turns inwards.
-Point shift_of_leaning_ray(double turning_deg, bool jagged = false) {
+/// Returns the shift of a ray that leans by so much, at a vertex where a wall of edges 1 long turns inwards.
+Point shift_of_leaning_ray(double turning_deg, double lean_deg) {
     const double turning = core::radians(turning_deg), first_height = 1e-3;
     const Point edge = core::rotated({-1, 0}, -turning);
     RaySet set;
-    set.lines = {{{1, 0}, {0, 1}}, {{0, 0}, core::rotated({0, 1}, core::radians(-30))}, {edge, {0, 1}}};
+    set.lines = {{{1, 0}, {0, 1}}, {{0, 0}, core::rotated({0, 1}, core::radians(-lean_deg))}, {edge, {0, 1}}};
     set.begin = {0, 3};
-    layers::shift_rays_of_corners(std::vector<char>{jagged}, LayerGrowth{.first_height = first_height}, set);
+    layers::shift_rays_of_corners(LayerGrowth{.first_height = first_height}, set);
     return set.lines[1].shift;
 }
 
-/// First cells of smooth walls are long. Where one ray is shifted and its neighbour is not, the faces between them lean.
-TEST(Rays, AreShiftedAtCornersOnly) {
-    EXPECT_EQ(shift_of_leaning_ray(4.5), Point{});
-    EXPECT_NE(shift_of_leaning_ray(20), Point{});
-    EXPECT_NE(shift_of_leaning_ray(4.5, true), Point{}) << "walls of ice have no long cells";
+TEST(Rays, AreShiftedWhereFirstHeightsWouldBeOff) {
+    EXPECT_NE(shift_of_leaning_ray(4.5, 30), Point{});
+    EXPECT_NE(shift_of_leaning_ray(20, 30), Point{});
+    EXPECT_EQ(shift_of_leaning_ray(4.5, 2), Point{}) << "0.2 % off";
 }
 
 TEST(Rays, AreShortenedInCirclesAndLeadOverToThoseBeside) {

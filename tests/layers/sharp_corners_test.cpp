@@ -14,9 +14,9 @@
 #include "checked_layer.hpp"
 #include "core/angles.hpp"
 #include "expect_cover.hpp"
-#include "layers/clefts.hpp"
+#include "layers/border/clefts.hpp"
+#include "layers/directions/corners.hpp"
 #include "layers/layered_rays.hpp"
-#include "layers/sharp_corners.hpp"
 #include "layers/stages.hpp"
 #include "support/layers.hpp"
 #include "support/shapes.hpp"
@@ -122,10 +122,6 @@ TEST(SharpCorners, KeepTheirRayWhereTheyMust) {
     Geometry smooth = jagged_geometry(notched_plate(30));
     smooth.elements[0].smooth = true;
     EXPECT_EQ(count(smooth, options_of_layers()), 0u);
-    Outline uneven = notched_plate(5);
-    const auto bottom = std::find(uneven.begin(), uneven.end(), Point{2, 0.2}) - uneven.begin();
-    for (std::ptrdiff_t k = 19; k >= 0; --k) uneven.erase(uneven.begin() + bottom + 2 * k + 1);
-    EXPECT_EQ(count(jagged_geometry(uneven), options_of_layers()), 0u) << "edges that differ";
 }
 
 /// Where no first layer fits between both walls, vertices near the corner have no rays, but cells of the layer.
@@ -145,9 +141,9 @@ TEST(SharpCorners, NarrowOnesReachFarther) {
             EXPECT_EQ(left_out % 2, 1u);
             const double chord = 2 * std::sin(core::radians(0.5 * angle_deg)) *
                                  distance(layer.points[with_corner->origin.index()], {2, 0.2});
-            EXPECT_GE(chord, 2.99 * first_height);
+            EXPECT_GE(chord, 1.99 * first_height);
             const double reach = static_cast<double>((left_out + 1) / 2);
-            EXPECT_LT(left_out > 1 ? chord * (reach - 1) / reach : 0, 3 * first_height) << "one vertex less would do";
+            EXPECT_LT(left_out > 1 ? chord * (reach - 1) / reach : 0, 2 * first_height) << "one vertex less would do";
         }
 }
 

@@ -1,0 +1,31 @@
+// The front: the polygon through the tips of an element's rays. Once divided, it is the outer border of the layer.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "layers/border/clefts.hpp"
+#include "layers/layered_rays.hpp"
+
+namespace lamina::layers {
+
+/// A corner of a front.
+struct FrontCorner {
+    std::size_t ray;       ///< the ray whose tip it is; of the rays of a fan that have no layers, the last one
+    std::uint32_t layers;  ///< number of layers on that ray; 0: the corner is the ray's origin
+    /// 0, or k: it is the k-th of the wall's vertices after that ray instead (RayLine::corner_after).
+    std::size_t after = 0;
+    std::optional<CleftEnd> cleft{};  ///< the end of the cleft that the edge behind this corner closes, if it does
+};
+
+/// Returns the corners of each element's front, which passes the ends of clefts by (clefts.hpp). The rays of a fan that
+/// have no layers share one corner. A corner of the wall without a ray is one of the front's if neither ray beside it
+/// has layers.
+std::vector<std::vector<FrontCorner>> front_corners(const LayeredRays& rays);
+
+/// Returns the place of a front's corner.
+Point place_of(const LayeredRays& rays, const FrontCorner& corner);
+
+}  // namespace lamina::layers

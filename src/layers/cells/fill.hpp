@@ -1,0 +1,60 @@
+// The cells between walls and outer borders, made with a record of the threads' times.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <lamina/layers.hpp>
+
+#include "core/busy_times.hpp"
+#include "delaunay/pieces/pieces.hpp"
+
+namespace lamina::layers {
+
+// The columns of cells between neighbouring rays, with the stretches of the outer border that bound them.
+
+/// The cells between two neighbouring rays; `second` follows counter-clockwise round the element.
+struct CellColumn {
+    const Ray &first, &second;
+    std::span<const VertexId> top;  ///< the outer border from the tip of `first` to that of `second`
+    /// The stretches of the outer border that run along the rays: up `first` from its origin, and down `second`. The
+    /// border does so where the column on the other side of the ray is empty and the ray has one layer; elsewhere the
+    /// stretch is empty.
+    std::span<const VertexId> up, down;
+    const Ray &before, &after;  ///< the rays beyond `first` and `second`
+};
+
+/// The columns of one element.
+class CellColumns {
+public:
+    /// Makes the columns of this element of a layer. Keeps a reference to its rays.
+    CellColumns(const Layer& layer, std::size_t element);
+
+    std::size_t size() const { return rays_.size(); }
+
+    /// Returns the column between ray i and the next one.
+    CellColumn operator[](std::size_t i) const;
+
+private:
+    std::span<const Ray> rays_;
+    /// The outer border, through the tips of all rays, those inside closed clefts included. The first vertex stands at
+    /// its end again.
+    std::vector<VertexId> border_;
+    std::vector<std::size_t> tip_;  ///< index of each tip in the border; at the end that of the first one again
+
+    std::span<const VertexId> border_between_tips(std::size_t i) const;
+    bool border_runs_along(std::size_t bare, std::size_t ray) const;
+};
+
+/// Does what fill_layer() does and adds the times of the threads to `times`, unless that is null. The kinds of work are
+/// those of delaunay::pieces::PieceWork.
+LAMINA_EXPORT LayerCells fill(const Layer& layer, LayerTopology topology, const DecompositionOptions& options,
+                              core::BusyTimes* times);
+
+/// Returns the constrained Delaunay triangulation of the layer's points between walls and outer borders, in pieces.
+LAMINA_EXPORT delaunay::pieces::PiecewiseTriangulation triangulate_layer(const Layer& layer,
+                                                                         const DecompositionOptions& options = {},
+                                                                         core::BusyTimes* times = nullptr);
+
+}  // namespace lamina::layers

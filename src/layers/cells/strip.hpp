@@ -1,0 +1,69 @@
+// Strips: polygons between two chains of points, cut into triangles without large angles.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <lamina/ids.hpp>
+#include <lamina/point.hpp>
+
+namespace lamina::layers {
+
+/// Cuts strips, one after the other. A strip lies between a lower and an upper chain, which both run from its first
+/// side to its last; the sides join the ends of the chains. Each triangle stands on an edge of one chain and has its
+/// apex on the other. A lower chain of one corner gives a fan, one of two corners a choice of diagonals or of two fans:
+///
+///     c-----q3----q2----q1----b
+///     |   /   .'    `.   `.   |       Upper chain b, q1, q2, q3, c; lower chain a, d. The triangles on b-q1 and q1-q2
+///     |  / .'          `. `.  |       have their apex at a; then comes the one on a-d with its apex at q2, and then
+///     | /.'              `.`. |       those on q2-q3 and q3-c with their apex at d.
+///     d-----------------------a
+class StripCutter {
+public:
+    explicit StripCutter(std::span<const Point> points) : points_(points) {}
+
+    /// Adds the triangles of the best cut, counter-clockwise, from the first side to the last. In the best cut the
+    /// largest angle of all triangles is smallest; among cuts with that angle, the sum of 1 / (1 + cos) of the largest
+    /// angles is smallest. Angles whose cosines differ by less than 1e-6, which is more than rounding, count as equal.
+    /// Where cuts are equal, `first_leads` prefers a large fan from the lower corner of the first side, otherwise from
+    /// that of the last. Returns false, and adds nothing, where every cut has a triangle that is not positive (exact).
+    /// Precondition: each chain has a corner or more, and both together three or more.
+    bool cut(std::span<const VertexId> lower, std::span<const VertexId> upper, bool first_leads,
+             std::vector<Triangle>& triangles);
+
+private:
+    /// A corner of each chain, joined by an edge: the state of a cut between the first side and the last.
+    struct CutState {
+        /// Cosines of the largest angles of the triangles on the next edge of each chain.
+        double upper_cosine = -2, lower_cosine = -2;
+        double min_cosine = -2;    ///< largest possible smallest cosine of the triangles up to here
+        double burden = HUGE_VAL;  ///< least possible sum of 1 / (1 + cos) over the triangles from here
+    };
+
+    std::span<const Point> points_;
+    std::span<const VertexId> lower_, upper_;
+    std::vector<CutState> states_;  ///< for each corner of the lower chain, all corners of the upper one
+    double min_cosine_ = 0;         ///< triangles with a smaller cosine are not part of the best cut
+
+    CutState& state(std::size_t i, std::size_t j) { return states_[i * upper_.size() + j]; }
+    const CutState& state(std::size_t i, std::size_t j) const { return states_[i * upper_.size() + j]; }
+    double find_min_cosine();
+    void find_burdens();
+    double burden_via_upper(std::size_t i, std::size_t j) const;
+    double burden_via_lower(std::size_t i, std::size_t j) const;
+};
+
+// Cells with divided tops, of which two triangles are joined to a quadrilateral.
+
+/// Joins the triangle on the edge between `a` and `d` with one beside it, if they make a strictly convex quadrilateral
+/// and no face inside the cell is farther from orthogonal to the line between the centroids on both sides then. Of the
+/// two beside it, the one is taken with which the worst face is better; where they are equal, `first_leads` prefers the
+/// one before. Removes both triangles, and returns the quadrilateral, whose corners begin at `a`.
+/// Precondition: `triangles` from `begin` on are a strip (StripCutter::cut()), and one of them has both corners.
+std::optional<Quad> join_on_lower_edge(std::span<const Point> points, VertexId a, VertexId d, bool first_leads,
+                                       std::size_t begin, std::vector<Triangle>& triangles);
+
+}  // namespace lamina::layers

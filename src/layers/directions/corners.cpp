@@ -1,0 +1,163 @@
+// The one ray of a sharp corner is so near to the walls on both sides that each cell beside it has an angle of 180
+// degrees less half of the corner's, whatever its size. So such a corner has no ray, and the rays beside it are
+// neighbours:
+//
+//                   _.-b       The column between the rays from a and b begins with three triangles:
+//              _.-'   /        c, a, a' and b, c, b' have the first height, and c, a', b' has the
+//         _.-'   _..-b'        angle of the corner. Rows go on above the edge from a' to b'.
+//     c =:_------    |
+//         `-._  ``--.a'
+//              `-._   |
+//                  `-._a
+//
+// docs/layer.md
+#include "layers/directions/corners.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <utility>
+
+#include "core/angles.hpp"
+#include "core/reproducible_math.hpp"
+#include "layers/layered_rays.hpp"
+#include "layers/mechanisms.hpp"
+#include "layers/stages.hpp"
+
+namespace lamina::layers {
+
+namespace {
+
+/// Walls meet at this angle or less, in degrees. Half of it is what is left to 180 degrees in the cells beside its ray.
+constexpr double largest_sharp_deg = 60;
+/// So many vertices on either side may be nearer to each other, and have no rays.
+constexpr std::size_t most_vertices = 16;
+
+/// An outline whose vertices are counted round and round.
+class Outline {
+public:
+    explicit Outline(std::span<const RayVertex> vertices) : vertices_(vertices) {}
+
+    std::size_t size() const { return vertices_.size(); }
+    Point at(std::size_t i) const { return vertices_[i % size()].at; }
+    bool is_wall(std::size_t i) const { return vertices_[i % size()].place == RayPlace::wall; }
+    /// Returns the angle by which the outline turns at a vertex, in radians; > 0 where the body is convex.
+    double turning(std::size_t i) const { return core::angle_between(at(i) - at(i + size() - 1), at(i + 1) - at(i)); }
+
+private:
+    std::span<const RayVertex> vertices_;
+};
+
+/// Returns how many vertices away from vertex i, on both sides, rays are to stand, where it is a sharp corner; else 0.
+std::size_t reach_of_corner(const Outline& outline, std::size_t i, double first_height) {
+    const std::size_t n = outline.size();
+    if (!outline.is_wall(i) || outline.turning(i) > -core::radians(180 - largest_sharp_deg)) return 0;
+    for (std::size_t k = 1; k <= std::min({most_vertices, i, n - i}); ++k) {
+        for (const std::size_t beside : {i + n - k, i + k})
+            if (!outline.is_wall(beside + n - 1) || !outline.is_wall(beside) || !outline.is_wall(beside + 1)) return 0;
+        if (distance(outline.at(i + n - k), outline.at(i + k)) >= 2 * first_height) return k;
+    }
+    return 0;
+}
+
+}  // namespace
+
+void leave_out_sharp_corners(double first_height, std::vector<RayVertex>& outline) {
+    if (outline.size() < 8 || !uses("sharp_corners")) return;
+    struct Corner {
+        std::size_t at, reach;
+        bool meets(const Corner& next) const { return at + reach > next.at - next.reach; }
+    };
+    std::vector<Corner> corners;
+    for (std::size_t i = 1; i < outline.size(); ++i)
+        if (const std::size_t reach = reach_of_corner(Outline(outline), i, first_height)) corners.push_back({i, reach});
+    std::vector<RayVertex> kept;
+    std::size_t done = 0;  // up to this vertex
+    for (std::size_t c = 0; c < corners.size(); ++c) {
+        const Corner& corner = corners[c];
+        // Corners that are too near to each other stay.
+        if ((c > 0 && corners[c - 1].meets(corner)) || (c + 1 < corners.size() && corner.meets(corners[c + 1])))
+            continue;
+        const auto vertex = [&](std::size_t i) { return outline.begin() + static_cast<std::ptrdiff_t>(i); };
+        const std::size_t before = corner.at - corner.reach, after = corner.at + corner.reach;
+        kept.insert(kept.end(), vertex(done), vertex(before + 1));
+        for (std::size_t i = before + 1; i < after; ++i) kept.back().corner_after.push_back(outline[i].at);
+        done = after;
+    }
+    kept.insert(kept.end(), outline.begin() + static_cast<std::ptrdiff_t>(done), outline.end());
+    outline = std::move(kept);
+}
+
+// The ray of a corner that leans, so that it meets its neighbours higher up (leans.hpp), is too high
+// above one of the edges beside it and too low above the other. It leaves the corner along the bisector instead, up to
+// the top of the first layer, and leans from there on (docs/layer.md):
+//
+//     \      /           \      /
+//      \    /             \    /      o: top of the first layer. Left: on a ray that leans to the right, too low above
+//       \  o               \  o       the wall on the right. Right: as high above that wall as above the other one.
+//        \/______           \|______
+//
+// Rows above are shifted as much, a part of the height of the first layer.
+
+namespace {
+
+/// First heights that differ by less from the one wanted stay as they are.
+constexpr double kept_difference = 0.009;
+/// Where walls turn by less, in degrees, rays are not shifted, and lean no farther than first heights allow.
+constexpr double max_smooth_turning_deg = 1;
+/// Largest shift, as a share of the shorter edge at the corner: far from what would make cells cross each other.
+constexpr double most_shift = 0.5;
+
+/// Returns the shift of a ray of its own at a vertex; none where the wall turns by least_turning or less, in radians.
+/// along: first height along the ray; height: above the edges.
+Point shift_at_corner(const RayLine& before, const RayLine& ray, const RayLine& after, double along, double height) {
+    const WallNeighbours vertices = wall_neighbours(before, ray, after);
+    const Point edge_before = ray.origin - vertices.before, edge_after = vertices.after - ray.origin;
+    const Point a = -perpendicular(unit(edge_before)), b = -perpendicular(unit(edge_after));
+    const auto is_kept = [&](Point normal) {
+        return std::abs(dot(normal, ray.direction) * along - height) <= kept_difference * height;
+    };
+    if (is_kept(a) && is_kept(b)) return {};
+    if (std::abs(core::angle_between(a, b)) <= core::radians(max_smooth_turning_deg)) return {};
+    // Both edges, moved outwards by the height, meet there.
+    const Point shift = height / (1 + dot(a, b)) * (a + b) - along * ray.direction;
+    const double shorter = std::min(length(edge_before), length(edge_after));
+    return length(shift) <= most_shift * shorter ? shift : Point{};
+}
+
+/// Returns the largest lean of the one ray of a vertex, in radians, at which it is higher above one of the edges at its origin
+/// than above the other by no more than twice 0.009 of their mean. A ray that leans by t where the wall turns by 2 b is
+/// cos(t + b) / (cos t cos b) = 1 - tan t tan b times that mean above one edge, 1 + tan t tan b times above the other.
+double max_unshifted_lean(double turning) {
+    const double b = 0.5 * std::abs(turning);
+    return core::atan2_reproducible(kept_difference * core::cos_reproducible(b), core::sin_reproducible(b));
+}
+
+}  // namespace
+
+double max_lean_between_edges(double turning, double first_height, double shorter_edge) {
+    if (std::abs(turning) <= core::radians(max_smooth_turning_deg)) return max_unshifted_lean(turning);
+    // The shift of a ray that leans by t, where the wall turns by 2 b, is first_height tan t / cos b long.
+    const double longest = most_shift * shorter_edge;
+    const double shifted = core::atan2_reproducible(longest * core::cos_reproducible(0.5 * turning), first_height);
+    return std::max(shifted, max_unshifted_lean(turning));
+}
+
+void shift_rays_of_corners(const LayerGrowth& growth, RaySet& set) {
+    if (!uses("corner_shifts")) return;
+    const RayNeighbours neighbours(set);
+    std::size_t element = 0;
+    for (std::size_t i = 0; i < set.lines.size(); ++i) {
+        while (i == set.begin[element + 1]) ++element;
+        RayLine& ray = set.lines[i];
+        const RayLine &before = set.lines[neighbours.previous[i]], &after = set.lines[neighbours.next[i]];
+        const auto on_wall = [](const RayLine& line) { return line.place == RayPlace::wall; };
+        if (!on_wall(before) || !on_wall(ray) || !on_wall(after)) continue;
+        if (before.origin == ray.origin || after.origin == ray.origin) continue;  // a ray of a fan
+        const double above = ray.opening * growth.first_height_on(element), along = ray.slant * above;
+        ray.shift = shift_at_corner(before, ray, after, along, above);
+    }
+}
+
+}  // namespace lamina::layers

@@ -1,0 +1,133 @@
+// Vertex normals, fans and refining rays. Source: J. K. Pardue, thesis (2015), chapter 3 and section 3.1.
+#include "layers/directions/rays.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/angles.hpp"
+#include "layers/directions/leans.hpp"
+#include "layers/mechanisms.hpp"
+#include "layers/stages.hpp"
+
+namespace lamina::layers {
+
+// Origins on an edge, and directions at even angles from its normal.
+
+IntermediateRays::IntermediateRays(const RayLine& first, const RayLine& last)
+    : from_(first.origin),
+      to_(last.origin),
+      normal_(-perpendicular(unit(to_ - from_))),
+      first_least_height_(first.least_height),
+      last_least_height_(last.least_height) {
+    // Rays stay within 90 degrees of the edge's normal, so that the difference of the two angles needs no wrapping.
+    first_angle_ = core::angle_between(normal_, first.direction);
+    last_angle_ = core::angle_between(normal_, last.direction);
+}
+
+void IntermediateRays::add(double part, double whole, std::vector<RayLine>& rays) const {
+    const double rest = whole - part;
+    const Point origin{(rest * from_.x + part * to_.x) / whole, (rest * from_.y + part * to_.y) / whole};
+    if (origin == rays.back().origin || origin == to_ || origin == from_) return;
+    rays.push_back({.origin = origin,
+                    .direction = unit(core::rotated(normal_, (rest * first_angle_ + part * last_angle_) / whole)),
+                    .least_height = (rest * first_least_height_ + part * last_least_height_) / whole});
+}
+
+namespace {
+
+/// Slack on the number of parts of an angle, so that an angle of exactly the limit is not divided.
+constexpr double part_slack = 1e-9;
+
+/// Returns into how many equal parts an angle must be divided for none to exceed the limit; at least 1.
+std::size_t angle_parts(double angle, double limit) {
+    return std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(std::abs(angle) / limit - part_slack)));
+}
+
+/// Returns the outward bisector at a vertex. The sum of the two normals vanishes as the edges fold onto each other; the
+/// difference of the tangents, which then takes its place, does not.
+Point bisector(Point tangent_before, Point tangent_after, double turning) {
+    if (std::abs(turning) < 0.5 * core::pi) return unit(-perpendicular(tangent_before) - perpendicular(tangent_after));
+    return turning > 0 ? unit(tangent_before - tangent_after) : unit(tangent_after - tangent_before);
+}
+
+/// Returns the vertices of the outline with their normals, not smoothed yet.
+std::vector<WallVertex> wall_vertices(std::span<const RayVertex> outline, const LayerOptions& options,
+                                      double min_fan_turning_deg) {
+    const std::size_t n = outline.size();
+    std::vector<WallVertex> vertices(n);
+    Point before = unit(outline[0].at - outline[n - 1].at);
+    for (std::size_t i = 0; i < n; ++i) {
+        const Point after = unit(outline[(i + 1) % n].at - outline[i].at);
+        const bool wall = outline[i].place == RayPlace::wall, end = outline[i].place == RayPlace::wake_end;
+        const double turning = end ? core::pi : core::angle_between(before, after);
+        const bool fan = wall && options.corners == CornerRays::fan && turning > core::radians(min_fan_turning_deg);
+        vertices[i] = {turning, -perpendicular(before), -perpendicular(after), bisector(before, after, turning), fan};
+        before = after;
+    }
+    return vertices;
+}
+
+Point leaning(Point direction, double lean) { return lean == 0 ? direction : unit(core::rotated(direction, lean)); }
+
+Point first_direction(const WallVertex& v) { return leaning(v.fan ? v.normal_before : v.bisector, v.lean[0]); }
+Point last_direction(const WallVertex& v) { return leaning(v.fan ? v.normal_after : v.bisector, v.lean[1]); }
+
+/// Returns half of the angle between the first and the last ray of a fan, in radians.
+double half_fan(const WallVertex& v) { return 0.5 * (v.turning + v.lean[1] - v.lean[0]); }
+
+/// Adds the ray or the fan of a vertex, which has `fan_rays` rays, or as many as max_angle asks for. The angles of a
+/// fan are counted from the bisector, not from one side to the other, so that mirrored input gives mirrored rays.
+void add_vertex_rays(const RayVertex& at, const WallVertex& vertex, double max_angle,
+                     std::optional<std::uint32_t> fan_rays, std::vector<RayLine>& rays) {
+    const auto add = [&](Point direction) {
+        rays.push_back({at.at, direction, at.place, at.opening, at.least_height});
+    };
+    add(first_direction(vertex));
+    if (!vertex.fan) return;
+    const double half = half_fan(vertex), middle = 0.5 * (vertex.lean[0] + vertex.lean[1]);
+    const std::size_t parts = fan_rays ? *fan_rays - 1 : angle_parts(2 * half, max_angle);
+    for (std::size_t k = 1; k < parts; ++k) {
+        const double share = (2.0 * static_cast<double>(k) - static_cast<double>(parts)) / static_cast<double>(parts);
+        add(unit(core::rotated(vertex.bisector, middle + share * half)));
+    }
+    add(last_direction(vertex));
+}
+
+/// Adds the rays between two others that differ by more than the largest angle, evenly spaced on the edge. Corners of
+/// jagged outlines are so many, and their edges so short, that neighbouring edges would differ by whole factors
+/// (docs/layer.md). Rays are added there only where a column opens widely, none where rays converge.
+void add_refining_rays(const RayLine& first, const RayLine& last, double max_angle, bool jagged,
+                       std::vector<RayLine>& rays) {
+    const IntermediateRays between(first, last);
+    if (jagged && between.angle() <= 0) return;
+    const std::size_t parts = angle_parts(between.angle(), max_angle);
+    for (std::size_t k = 1; k < parts; ++k) between.add(static_cast<double>(k), static_cast<double>(parts), rays);
+}
+
+}  // namespace
+
+std::vector<RayLine> make_rays(std::span<const RayVertex> outline, OutlineKind kind, const LayerOptions& options,
+                               const LayerGrowth& growth, std::span<const double> heights) {
+    const bool smooth = kind == OutlineKind::smooth, jagged = kind == OutlineKind::jagged;
+    const double min_fan_turning_deg =
+        smooth && !options.fan_rays ? std::min(sharp_corner_deg, 2 * options.max_ray_angle_deg) : sharp_corner_deg;
+    std::vector<WallVertex> vertices = wall_vertices(outline, options, min_fan_turning_deg);
+    if (!heights.empty() && uses("leans")) lean_rays(outline, heights, kind, options, growth, vertices);
+    const double max_angle = core::radians(options.max_ray_angle_deg);
+    std::vector<RayLine> rays;
+    rays.reserve(2 * outline.size());
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+        const std::size_t next = (i + 1) % outline.size();
+        add_vertex_rays(outline[i], vertices[i], max_angle, options.fan_rays, rays);
+        rays.back().corner_after = outline[i].corner_after;
+        if (!outline[i].corner_after.empty()) continue;
+        if (options.fan_rays || outline[i].place != RayPlace::wall || outline[next].place != RayPlace::wall) continue;
+        const RayLine after{.origin = outline[next].at,
+                            .direction = first_direction(vertices[next]),
+                            .least_height = outline[next].least_height};
+        add_refining_rays(RayLine(rays.back()), after, most_opening(kind, options), jagged, rays);
+    }
+    return rays;
+}
+
+}  // namespace lamina::layers

@@ -1,0 +1,50 @@
+// Columns: the heights of the layers on each ray, from what is asked for and from where the front is to lie.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <lamina/layers.hpp>
+
+#include "layers/stages.hpp"
+#include "layers/wake/wake_outline.hpp"
+
+namespace lamina::layers {
+
+// Heights that columns reach at least.
+
+/// Sets the least heights of the vertices on the wall of an element: that of the nearest point of this closed chain,
+/// linear along it. Those of wakes stay as they are.
+void set_least_heights(std::span<const WallHeight> chain, std::span<RayVertex> outline);
+
+/// Returns the least heights of all rays. The ends of a fan have those of the rays beside it, so that both sides of a
+/// trailing edge keep their own.
+std::vector<double> least_heights(const RaySet& set);
+
+/// Returns the height of all requested layers over a wall whose vertices lie `spacing` apart. It is an estimate where
+/// the number of layers or the growth depends on the spacing.
+double expected_height(const LayerGrowth& growth, double spacing);
+
+/// Sets the slants of rays: RayLine::slant.
+void set_slants(RaySet& set);
+
+/// Returns the first height along a ray. first_height: that wanted above the wall.
+inline double first_height_along(const RayLine& ray, double first_height) {
+    return ray.slant * ray.opening * first_height;
+}
+
+/// Returns the first height along each ray.
+std::vector<double> first_heights_along(const RaySet& set, const LayerGrowth& growth);
+
+/// Returns the height along each ray at which the requested layers end where nothing is in their way: that of their number,
+/// of their thickness, or of isotropy, and at least that of the flow's boundary layer. Throws OptionError where more than
+/// 1000 layers would be needed up to isotropy. Precondition: slants are set.
+std::vector<double> asked_heights(const RaySet& set, const LayerGrowth& growth);
+
+/// Returns columns that end at `front`, which holds a height along each ray, at most the `asked` one. A ray whose front is
+/// the asked one has the layers of a requested number as the growth law makes them. Other columns are stretched, and their
+/// numbers of layers chosen so that neighbours differ by one at most and rarely. Throws OptionError as asked_heights().
+LayerHeights columns_up_to(const RaySet& set, const LayerGrowth& growth, std::span<const double> asked,
+                           std::span<const double> front);
+
+}  // namespace lamina::layers

@@ -1,0 +1,217 @@
+// Numbers of layers by a dynamic programme. Where the number of layers changes, the rows above are shifted by up to a layer
+// from one ray to the next, and the cells are sheared, the more the narrower the column is:
+//
+//     |   |              |   |
+//     |   |__            |___|         Left: five layers beside four that end at the same height. Right: four, a little
+//     |  /|  |           |   |         higher, on both rays. The number changes where columns are wide.
+//     |_/ |__|           |___|
+//     |  /|  |           |   |
+//     |_/_|__|           |___|
+//
+// Each ray has a range of numbers with which a stretch can keep the front where it is. Among all sequences of numbers in
+// these ranges, the cheapest is taken. A change costs the fourth power of the tangent by which the rows that it shifts
+// are off a right angle with the rays. So a change costs little where columns are wide, and where rays lean, it costs
+// less in one direction than in the other (docs/layer.md):
+//
+//         / / / /             / / / /
+//        /_/ / /             /_/_/ /      rays that lean to the right; rows that fall in this direction, and that rise
+//       / /_/ /             / / /_/
+//      / / / /_            / / / /
+//
+// A change costs as much, too, where rows turn at one of its rays so that the middles of the cells on both sides lie far
+// below the middle of the face between them (docs/decisions/0060):
+//
+//        __|__
+//       /  |  \      rows that fall away from
+//      /  _|_  \     a ray on both sides
+//        / | \     .
+//
+// Source: R. Bellman, Dynamic Programming (1957): the cheapest sequence, ray by ray.
+#include "layers/heights/numbers.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "layers/mechanisms.hpp"
+#include "layers/stages.hpp"
+
+namespace lamina::layers {
+
+namespace {
+
+constexpr double most_tangent = 8;
+
+}  // namespace
+
+ColumnRow row_between(const RayLine& a, double height_a, const RayLine& b, double height_b) {
+    const Point row = b.origin + height_b * b.direction - (a.origin + height_a * a.direction);
+    const Point along = unit(a.direction + b.direction);
+    return {std::abs(cross(row, along)), dot(row, along)};
+}
+
+double tangent_of(const ColumnRow& row) {
+    const double shift = std::abs(row.rise);
+    return shift < most_tangent * row.width ? shift / row.width : most_tangent;
+}
+
+double skewness_between(const ColumnRow& before, const ColumnRow& after, double height) {
+    const double off = std::abs(before.rise * after.width - after.rise * before.width);
+    const double whole = (before.width + after.width) * height;
+    return off < most_tangent * whole ? off / whole : most_tangent;
+}
+
+namespace {
+
+/// A number costs this much times the square of its distance from the one that is wanted.
+constexpr double cost_of_distance = 0.05;
+/// It costs this much for each layer. So of two sequences that cost the same otherwise, as in mirrored input, the one
+/// with fewer layers is taken.
+constexpr double cost_of_layer = 1e-6;
+
+/// What a ray may have.
+struct RayChoices {
+    LayerRange range;
+    std::uint32_t wanted;
+    const ColumnEnd* end;
+    ColumnRow row;  ///< of the front, from the ray before to this one
+};
+
+/// Returns the height of the last of n layers, which are stretched to end at the front: between those of the number that
+/// is wanted and of the least or the most.
+double last_spacing(const ColumnEnd& end, std::uint32_t n) {
+    const auto between = [&](std::uint32_t other, double spacing) {
+        const double share = (double(n) - double(end.wanted)) / (double(other) - double(end.wanted));
+        return end.last_spacing + std::min(share, 1.0) * (spacing - end.last_spacing);
+    };
+    if (n < end.wanted && end.layers.least < end.wanted) return between(end.layers.least, end.spacing_of_least);
+    if (n > end.wanted && end.layers.most > end.wanted) return between(end.layers.most, end.spacing_of_most);
+    return end.last_spacing;
+}
+
+/// Returns what it costs that the number of layers changes from `before` to `n` on the column before ray k. The topmost
+/// row that both rays share is one layer below the front on one of them. At both rays it meets rows of the front, which
+/// makes faces skewed; a skewness costs as much as a tangent of that size.
+double cost_of_change(std::span<const RayChoices> rays, std::size_t k, std::uint32_t before, std::uint32_t n) {
+    const RayChoices &ray = rays[k], &ray_before = rays[k - 1], &ray_after = rays[k + 1 < rays.size() ? k + 1 : 1];
+    const double spacing = last_spacing(*ray.end, n), spacing_before = last_spacing(*ray_before.end, before);
+    ColumnRow row = ray.row;
+    row.rise += n > before ? -spacing : spacing_before;
+    const double skewness =
+        std::max(skewness_between(ray_before.row, row, spacing_before), skewness_between(row, ray_after.row, spacing));
+    const double tangent = std::max(tangent_of(row), skewness), square = tangent * tangent;
+    return square * square;
+}
+
+/// A step from a number on the ray before.
+struct Step {
+    std::uint32_t before;
+    double cost;  ///< of the change, and of the number that it leads to
+};
+
+/// Returns the steps to number n of ray k: from the same number, the one below and the one above, or those nearest to them.
+std::array<Step, 3> steps_to(std::span<const RayChoices> rays, std::size_t k, std::uint32_t n) {
+    const LayerRange& range_before = rays[k - 1].range;
+    const double off = double(n) - double(rays[k].wanted);
+    const double own = cost_of_distance * off * off + cost_of_layer * n;
+    std::array<Step, 3> steps;
+    const std::array<std::uint32_t, 3> numbers{n, n - std::min(n, 1u), n + 1};
+    for (std::size_t s = 0; s < steps.size(); ++s) {
+        const std::uint32_t before = std::clamp(numbers[s], range_before.least, range_before.most);
+        const double change = std::abs(double(n) - double(before));
+        steps[s] = {before, own + (change > 0 ? cost_of_change(rays, k, before, n) * change * change : 0)};
+    }
+    return steps;
+}
+
+/// The cheapest ways to the numbers of the rays of one element.
+class NumberSearch {
+public:
+    /// rays: the first one stands at the end again.
+    explicit NumberSearch(std::span<const RayChoices> rays) : rays_(rays), steps_(rays.size()), ways_(rays.size()) {
+        for (std::size_t k = 0; k < rays.size(); ++k) {
+            const LayerRange& range = rays[k].range;
+            ways_[k].resize(range.most - range.least + std::size_t{1});
+            for (std::uint32_t n = range.least; k > 0 && n <= range.most; ++n)
+                steps_[k].push_back(steps_to(rays, k, n));
+        }
+    }
+
+    /// Returns the cheapest numbers: the sequence begins and ends with each number of the first ray in turn.
+    std::vector<std::uint32_t> run() && {
+        double least = HUGE_VAL;
+        std::vector<std::uint32_t> best;
+        for (std::uint32_t held = rays_[0].range.least; held <= rays_[0].range.most; ++held) {
+            const double cost = cost_from(held);
+            if (!best.empty() && !(cost < least)) continue;
+            least = cost;
+            best = numbers_to(held);
+        }
+        return best;
+    }
+
+private:
+    /// The cheapest way to a number.
+    struct Way {
+        double cost;
+        std::uint32_t before;
+    };
+    std::span<const RayChoices> rays_;
+    std::vector<std::vector<std::array<Step, 3>>> steps_;  ///< by ray and number
+    std::vector<std::vector<Way>> ways_;                   ///< by ray and number
+
+    /// Finds the ways from this number of the first ray, and returns the cost of the one back to it. Numbers to which none
+    /// leads cost infinitely much.
+    double cost_from(std::uint32_t held) {
+        for (Way& way : ways_[0]) way = {HUGE_VAL, held};
+        ways_[0][held - rays_[0].range.least].cost = 0;
+        for (std::size_t k = 1; k < rays_.size(); ++k)
+            for (std::size_t n = 0; n < ways_[k].size(); ++n) {
+                Way& way = ways_[k][n];
+                way = {HUGE_VAL, steps_[k][n][0].before};
+                for (const Step& step : steps_[k][n]) {
+                    const double cost = ways_[k - 1][step.before - rays_[k - 1].range.least].cost + step.cost;
+                    if (cost < way.cost) way = {cost, step.before};
+                }
+            }
+        return ways_.back()[held - rays_[0].range.least].cost;
+    }
+
+    /// Returns the numbers on the way to this number of the last ray.
+    std::vector<std::uint32_t> numbers_to(std::uint32_t held) const {
+        std::vector<std::uint32_t> numbers(rays_.size(), held);
+        for (std::size_t k = rays_.size() - 1; k > 0; --k)
+            numbers[k - 1] = ways_[k][numbers[k] - rays_[k].range.least].before;
+        return numbers;
+    }
+};
+
+}  // namespace
+
+std::vector<std::uint32_t> cheapest_numbers(const RaySet& set, std::span<const ColumnEnd> ends) {
+    std::vector<std::uint32_t> numbers(ends.size());
+    if (!uses("numbers")) {
+        for (std::size_t i = 0; i < ends.size(); ++i) numbers[i] = ends[i].wanted;
+        return numbers;
+    }
+    for (std::size_t e = 0; e < set.elements(); ++e) {
+        const std::size_t begin = set.begin[e], n = set.begin[e + 1] - begin;
+        std::vector<RayChoices> rays;
+        rays.reserve(n + 1);
+        for (std::size_t i = begin, before = begin + n - 1; i < begin + n; before = i++)
+            rays.push_back({ends[i].layers, ends[i].wanted, &ends[i],
+                            row_between(set.lines[before], ends[before].height, set.lines[i], ends[i].height)});
+        // The sequence closes at a ray with few numbers.
+        const auto first = std::min_element(rays.begin(), rays.end(), [](const RayChoices& a, const RayChoices& b) {
+            return a.range.most - a.range.least < b.range.most - b.range.least;
+        });
+        const auto offset = static_cast<std::size_t>(first - rays.begin());
+        std::rotate(rays.begin(), first, rays.end());
+        rays.push_back(rays.front());
+        const std::vector<std::uint32_t> found = NumberSearch(rays).run();
+        for (std::size_t k = 0; k < n; ++k) numbers[begin + (offset + k) % n] = found[k];
+    }
+    return numbers;
+}
+
+}  // namespace lamina::layers
