@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "layers/parameters.hpp"
 #include "layers/stages.hpp"
 
 namespace lamina::layers {
@@ -41,10 +42,6 @@ void lower_to_neighbours(const RaySet& set, std::vector<T>& values, Bound bound)
         for (std::size_t k = 2 * n; k-- > 0;) pass_on(k + 1, k);
     }
 }
-
-/// Largest rise of the front per unit of distance along it. Two such slopes in a corner of 90 degrees leave 65 degrees to
-/// the outer region.
-inline constexpr double max_front_slope = 0.22;
 
 /// Lowers heights along rays until none rises above its neighbour's by more than a slope, per unit of distance between their
 /// points: they become the largest heights below those given with that slope, an inf-convolution.

@@ -13,6 +13,8 @@
 #include <lamina/layers.hpp>
 #include <lamina/point.hpp>
 
+#include "layers/parameters.hpp"
+
 namespace lamina::layers {
 
 /// The origin and the direction of a ray.
@@ -145,13 +147,6 @@ std::vector<std::size_t> shorten_rays(std::span<const Circle> places, Rays& rays
 
 /// Returns, for each element, its front: the closed polygon through the tips of its rays, counter-clockwise.
 std::vector<std::vector<Point>> fronts(const Rays& rays);
-
-/// Layers on a ray that leaves the wall's edges at an angle are at most this many times as high along the ray as above
-/// the edges.
-inline constexpr double max_slant = 2;
-
-/// The growth of layers that are stretched differs from the requested growth by at most this factor.
-inline constexpr double max_stretch = 1.06;
 
 /// Returns the spacings of resampled walls with which their fronts would need no division by these options, wherever
 /// they need one: limits for the stage "prepare" (docs/decisions/0017). Throws OptionError for options out of range.

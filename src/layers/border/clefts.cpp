@@ -19,18 +19,13 @@
 #include "core/segments.hpp"
 #include "layers/cells/strip.hpp"
 #include "layers/mechanisms.hpp"
+#include "layers/parameters.hpp"
 #include "layers/stages.hpp"
 
 namespace lamina::layers {
 
 namespace {
 
-/// A cleft ends where the gap between the fronts is this many times as wide as their edges are long.
-constexpr double open_gap = 2.0;
-/// Triangles of its strip have no angle above this, in degrees.
-constexpr double largest_angle_deg = 150;
-/// Distances from the corner count as equal up to this ratio.
-constexpr double as_far = 1.1;
 /// A cleft ends at so many rays.
 constexpr std::size_t most_rays = 128;
 
@@ -78,8 +73,8 @@ private:
         const Point corner = corner_after[corner_after.size() / 2];
         const double to_first = distance(corner, rays_.tip(end.first - 1)),
                      to_last = distance(corner, rays_.tip(end.last + 1));
-        if (to_first <= as_far * to_last) --end.first;
-        if (to_last <= as_far * to_first) ++end.last;
+        if (to_first <= equal_distance_ratio * to_last) --end.first;
+        if (to_last <= equal_distance_ratio * to_first) ++end.last;
         return true;
     }
 
@@ -122,7 +117,7 @@ private:
                        const Point at = strip.corner(t, k);
                        return core::angle_between(strip.corner(t, k + 1) - at, strip.corner(t, k + 2) - at);
                    };
-                   return std::max({angle_at(0), angle_at(1), angle_at(2)}) <= core::radians(largest_angle_deg);
+                   return std::max({angle_at(0), angle_at(1), angle_at(2)}) <= core::radians(max_cleft_angle_deg);
                });
     }
 

@@ -14,6 +14,7 @@
 #include "layers/layered_rays.hpp"
 #include "layers/measures.hpp"
 #include "layers/mechanisms.hpp"
+#include "layers/parameters.hpp"
 #include "layers/stages.hpp"
 
 namespace lamina::layers {
@@ -109,11 +110,6 @@ namespace lamina::layers {
 namespace {
 
 using FrontCorners = std::vector<std::vector<FrontCorner>>;
-
-/// The top of a cell of the grid stays whole up to this many times its target: up to where its halves would be as much too
-/// short as it is too long. A point on the top of a flat cell makes an angle near 180 degrees, and halves of the tops of high
-/// ones are farther in area from the triangles beyond. Walls that are kept have no other way to become finer than their borders.
-constexpr double whole_top = std::numbers::sqrt2;
 
 /// Divides the fronts through these corners. least_requests, whole_up_to: as for divide_borders().
 BorderDivision divide_fronts(const LayeredRays& rays, const FrontCorners& corners, const BorderOptions& options,

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/segments.hpp"
+#include "layers/parameters.hpp"
 
 namespace lamina::layers {
 
@@ -30,9 +31,6 @@ std::vector<PolygonEdge> polygon_edges(std::span<const std::vector<Point>> polyg
 // The search for gaps between edges, and the sources along an edge that faces one.
 
 namespace {
-
-/// Gaps narrower than this share of an edge do not divide it further.
-constexpr double min_gap_share = 1.0 / 128;
 
 /// Returns the distance of two segments that do not cross.
 double segment_distance(Point a, Point b, const PolygonEdge& other) {
@@ -82,12 +80,7 @@ void add_edge_sources(std::span<const PolygonEdge> edges, const core::BoxTree& t
     add_part_sources(edges[edge].a, edges[edge].b, requested_length, edges_across(edges, tree, edge), sources);
 }
 
-namespace {
-
-/// Length of the intervals of the step function, as a share of the target.
-constexpr double interval_share = 0.25;
-
-}  // namespace
+namespace {}  // namespace
 
 TargetLength::TargetLength(std::span<const PolygonEdge> edges, const BorderOptions& options)
     : edges_(edges),

@@ -11,6 +11,7 @@
 
 #include "core/box_tree.hpp"
 #include "core/segments.hpp"
+#include "layers/parameters.hpp"
 
 namespace lamina::layers {
 
@@ -44,9 +45,6 @@ core::BoxTree segment_tree(const Segments& segments) {
 /// that is less. tree: the tree over the edges.
 void add_edge_sources(std::span<const PolygonEdge> edges, const core::BoxTree& tree, std::size_t edge,
                       double requested_length, std::vector<SizeSource>& sources);
-
-/// An edge may be this many times as long as its target before it is divided.
-inline constexpr double target_slack = 1.1;
 
 /// A stretch of an edge and the target length of the edges on it.
 struct TargetInterval {

@@ -23,14 +23,13 @@
 #include "core/reproducible_math.hpp"
 #include "layers/layered_rays.hpp"
 #include "layers/mechanisms.hpp"
+#include "layers/parameters.hpp"
 #include "layers/stages.hpp"
 
 namespace lamina::layers {
 
 namespace {
 
-/// Walls meet at this angle or less, in degrees. Half of it is what is left to 180 degrees in the cells beside its ray.
-constexpr double largest_sharp_deg = 60;
 /// So many vertices on either side may be nearer to each other, and have no rays.
 constexpr std::size_t most_vertices = 16;
 
@@ -101,13 +100,6 @@ void leave_out_sharp_corners(double first_height, std::vector<RayVertex>& outlin
 // Rows above are shifted as much, a part of the height of the first layer.
 
 namespace {
-
-/// First heights that differ by less from the one wanted stay as they are.
-constexpr double kept_difference = 0.009;
-/// Where walls turn by less, in degrees, rays are not shifted, and lean no farther than first heights allow.
-constexpr double max_smooth_turning_deg = 1;
-/// Largest shift, as a share of the shorter edge at the corner: far from what would make cells cross each other.
-constexpr double most_shift = 0.5;
 
 /// Returns the shift of a ray of its own at a vertex; none where the wall turns by least_turning or less, in radians.
 /// along: first height along the ray; height: above the edges.

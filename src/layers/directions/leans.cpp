@@ -8,29 +8,12 @@
 #include "core/rounding.hpp"
 #include "layers/directions/corners.hpp"
 #include "layers/directions/lean_chain.hpp"
+#include "layers/parameters.hpp"
 #include "layers/room/truncation.hpp"
 
 namespace lamina::layers {
 
 namespace {
-
-/// Columns are widened to this many times the angle that they may open by, in heights of the front.
-constexpr double wanted_width_in_openings = 1.2;
-/// Where layers end at isotropy and corners follow each other closely, fronts are as low as columns are narrow there, and high
-/// where columns open: widths are measured at this many heights of the front, so that columns share the angles of corners.
-constexpr double fronts_on_jagged = 8;
-/// Rays should meet no nearer to the wall than at this many heights of the front. A ray ends at ray_fraction of the way to a ray
-/// that it meets, and rays that lean by 45 degrees meet at half the height.
-constexpr double clearance = 2 / ray_fraction;
-/// The stiffness of the chain where corners follow each other closely, over that elsewhere: more columns share what each has
-/// too much.
-constexpr double stiffness_on_jagged = 0.16;
-/// Largest lean of the first and the last ray of a fan, in degrees, and the share of the fan's angle that each gives at most
-/// to the columns beside it.
-constexpr double most_fan_lean_deg = 25, most_given_share = 0.3;
-/// Largest lean of a ray from the bisector, in degrees: that of a ray beside the corner of a step, parallel to the corner's. And
-/// the largest angle from the normals of both edges: cells in all rows at the wall are as skewed as that.
-constexpr double most_lean_deg = 45, most_lean_from_normals_deg = 57;
 
 /// Returns the bounds of the lean of the one ray of a vertex. shorter_edge: length of the shorter one of its edges.
 LeanBounds bounds_of_ray(const RayVertex& at, const WallVertex& vertex, double first_height, double shorter_edge) {

@@ -27,29 +27,12 @@
 #include "layers/heights/stretch.hpp"
 #include "layers/layered_rays.hpp"
 #include "layers/mechanisms.hpp"
+#include "layers/parameters.hpp"
 #include "layers/stages.hpp"
 
 namespace lamina::layers {
 
 namespace {
-
-/// Last layers become this many times as high as if their cells had the area of squares on the front's edges: half of
-/// such a cell has the area of the triangle beyond. They become the second number times as high at least, for 0.6 times
-/// the area.
-constexpr double wanted_tallness = 0.91, least_tallness = 0.54;
-/// Rays lean along the front's edges by so much at most, as the sine between them; farther ones count as if they did.
-/// Columns of quadrilaterals count as upright.
-constexpr double least_sine = 0.5, sine_of_upright = 1;
-/// Where numbers of layers change, fronts rise by up to a quarter of the width of a column. If last layers become this
-/// many times as high as wide, the ends of the column differ by less than a third of a cell. But those of narrow
-/// columns near them become no higher than wide for it.
-constexpr double even_tallness = 0.86;
-/// Where neighbours are not changed alike, rows rise by this much per unit of distance at most. Points move by up to 0.17
-/// of the part that changes for each unit of the ratio's logarithm.
-constexpr double most_rise = 0.15, most_moved = 0.17;
-/// Last layers become no higher than this share of the part that changes: the layers below would be far lower. Columns of
-/// which they are higher, with fewer than three layers in this part, stay as they are.
-constexpr double max_last_share = 0.5;
 
 /// Returns the layer above which the heights of a column with n layers may change.
 std::uint32_t fixed_layers(const HeightColumn& column, std::uint32_t n) {

@@ -3,12 +3,10 @@
 
 #include <span>
 
+#include "layers/parameters.hpp"
 #include "layers/stages.hpp"
 
 namespace lamina::layers {
-
-/// Last layers become so many times as high at the most.
-inline constexpr double max_end_ratio = 2.0;
 
 /// Returns the stretch, above this layer, with which the last layer of a column becomes `ratio` times as high and the column
 /// keeps its end. heights[0] = 0 is the wall. Precondition: at least two layers lie above `above`.

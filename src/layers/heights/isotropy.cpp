@@ -16,23 +16,12 @@
 
 #include "layers/layered_rays.hpp"
 #include "layers/mechanisms.hpp"
+#include "layers/parameters.hpp"
 #include "layers/stages.hpp"
 
 namespace lamina::layers {
 
 namespace {
-
-/// Where rays spread, their distance counts up to this many times that at the wall: with slow growth, layers between
-/// spreading rays never become as high as wide.
-constexpr double max_spread = 2;
-/// Where columns go on beyond isotropy, cells are at most this many times as high as wide, unless the column is so
-/// narrow that it would get many more layers than the second number.
-constexpr double max_tallness = 1.5;
-constexpr double max_layers_beyond_isotropy = 20;
-/// The slope with which the front falls from a fan on both sides.
-constexpr double slope_beside_fans = 0.1;
-/// Largest ratio of the last spacings of neighbouring rays. The ratio of their heights is smaller still.
-constexpr double max_neighbour_ratio = 1.25;
 
 /// Distances between neighbouring rays.
 class RayDistances {

@@ -5,12 +5,10 @@
 #include <span>
 #include <vector>
 
+#include "layers/parameters.hpp"
 #include "layers/stages.hpp"
 
 namespace lamina::layers {
-
-/// Bounds of the adaptive law's ratio.
-inline constexpr double min_adaptive_ratio = 1.05, max_adaptive_ratio = 1.5;
 
 /// Returns, for each ray, the height at which the spacing of the layers reaches the distance of the rays there, or the
 /// height of all layers where none does; the height of one layer at least. It varies smoothly along the walls.

@@ -34,6 +34,7 @@
 #include <cmath>
 
 #include "layers/mechanisms.hpp"
+#include "layers/parameters.hpp"
 #include "layers/stages.hpp"
 
 namespace lamina::layers {
@@ -63,8 +64,6 @@ double skewness_between(const ColumnRow& before, const ColumnRow& after, double 
 
 namespace {
 
-/// A number costs this much times the square of its distance from the one that is wanted.
-constexpr double cost_of_distance = 0.05;
 /// It costs this much for each layer. So of two sequences that cost the same otherwise, as in mirrored input, the one
 /// with fewer layers is taken.
 constexpr double cost_of_layer = 1e-6;

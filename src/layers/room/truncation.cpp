@@ -17,6 +17,7 @@
 #include "core/box_tree.hpp"
 #include "core/parallel.hpp"
 #include "core/segments.hpp"
+#include "layers/parameters.hpp"
 #include "layers/stages.hpp"
 
 namespace lamina::layers {
@@ -25,8 +26,6 @@ namespace {
 
 /// Up to this number of rays, one scale does for all heights.
 constexpr std::size_t max_single_scale_rays = 600;
-/// Distance of the rays of a sample, as a share of the largest height of the scale.
-constexpr double sample_spacing = 0.1;
 
 Point at_height(const RayLine& ray, double height) { return ray.origin + height * ray.direction; }
 

@@ -23,6 +23,7 @@
 #include "core/bounding_box.hpp"
 #include "core/box_tree.hpp"
 #include "core/segments.hpp"
+#include "layers/parameters.hpp"
 #include "layers/room/truncation.hpp"
 #include "layers/stages.hpp"
 
@@ -30,23 +31,6 @@ namespace lamina::layers {
 
 namespace {
 
-/// Ratio of the lengths of successive edges of a wake, and the longest edge as a share of the line.
-constexpr double edge_ratio = 1.07, longest_share = 0.015;
-/// From one vertex of a wake to the next the first height grows by these shares, at its begin and at its end. Rows of
-/// cells rise with it: by six times as much where layers end at isotropy, as a share of the edge's length.
-constexpr double first_opening = 0.05, last_opening = 0.12;
-/// Where layers go on beyond isotropy, rows rise much more. Over the length of their height the first height grows by
-/// this share.
-constexpr double opening_per_height = 0.65;
-/// The first height opens until this many layers of equal height would fill the height that is needed.
-constexpr double layers_when_open = 12;
-/// The last edge of a wake is this many times as long as the first layer there is high, so that fronts fall no faster
-/// than they may. The edges before are longer by this ratio, one after the other, as the border's edges may be.
-constexpr double last_edge = 4.2, last_edge_ratio = 1.09;
-/// The sides of a wake meet this many times the width of the base behind it.
-constexpr double core_length = 4;
-/// A base so wide that they would meet beyond this share of the wake gets none.
-constexpr double max_core_share = 0.1;
 /// Wakes with fewer vertices before their wedge are not worth it.
 constexpr std::size_t min_vertices = 8;
 
@@ -87,7 +71,7 @@ public:
     /// Adds the vertices on both sides of the core behind a base, which ends at `depth`, and the one where they meet.
     void divide_sides(double depth, double edge) {
         const WakePoint end = line_.at(depth);
-        wake_.core = make_core(wake_.element, wake_.edge, end.at, edge, edge_ratio, growth_);
+        wake_.core = make_core(wake_.element, wake_.edge, end.at, edge, wake_edge_ratio, growth_);
         Point from = wake_.edge.front();
         for (const std::size_t station : wake_.core.stations) {
             const std::vector<Point>& chain = wake_.core.chains[station];
@@ -102,13 +86,13 @@ public:
 
     /// Adds the vertices on the line, behind those that are there. Returns whether there is room for the wedge.
     bool divide_line(double edge) {
-        const double longest = longest_share * line_.length();
+        const double longest = max_wake_edge_share * line_.length();
         for (;;) {
             edge = std::min(edge, longest);
             const std::vector<double> wedge = distances_to_end(edge);
             if (distance_ + edge + wedge.front() > end_) return end_wake(wedge, edge);
             add_on_line(distance_ + edge, edge);
-            edge *= edge_ratio;
+            edge *= wake_edge_ratio;
         }
     }
 
@@ -120,9 +104,10 @@ private:
     double distance_ = 0, opening_ = 1;  ///< of the last vertex
 
     void add(const WakePoint& left, const WakePoint& right, double at, double edge) {
-        const double opened = (1 + std::min(first_opening + at / line_.length() * (last_opening - first_opening),
-                                            opening_per_height * edge / std::max(left.left, right.right))) *
-                              opening_;
+        const double opened =
+            (1 + std::min(first_wake_opening + at / line_.length() * (last_wake_opening - first_wake_opening),
+                          opening_per_height * edge / std::max(left.left, right.right))) *
+            opening_;
         const double widest = std::min(left.left, right.right) / (layers_when_open * growth_.first_height);
         opening_ = std::max(opening_, std::min(opened, widest));
         distance_ = at;
@@ -138,10 +123,10 @@ private:
     /// long as this one.
     std::vector<double> distances_to_end(double edge) const {
         std::vector<double> distances;
-        double length = last_edge * opening_ * layer_height(growth_, 1), at = 0;
+        double length = last_wake_edge * opening_ * layer_height(growth_, 1), at = 0;
         do {
             distances.push_back(at += length);
-            length *= last_edge_ratio;
+            length *= last_wake_edge_ratio;
         } while (length < edge);
         std::reverse(distances.begin(), distances.end());
         return distances;
@@ -355,15 +340,6 @@ bool shorten_bare_wakes(const RaySet& set, std::span<const std::uint32_t> counts
 
 namespace {
 
-/// The next chain follows by the law where that makes a strip lower than this share of an edge of the wake.
-constexpr double max_layer_share = 0.7;
-/// The last station is at least this share of an edge before the end.
-constexpr double min_last_share = 0.6;
-
-/// The outermost cells between stations are this many first heights wide, like the first cells on the other side of the
-/// wake; each one further in is wider by the ratio. Wide cells beside the first ones made a flow solver diverge.
-constexpr double outermost_cell = 2, cell_ratio = 1.4;
-
 /// A chain: how far behind the base it lies, the height of the strip below it, and whether it ends at stations.
 struct ChainPlace {
     double height, strip;
@@ -394,7 +370,7 @@ std::vector<double> shares_between_stations(double length, double widest, double
     double cell = outermost;
     while (half.back() + 1.5 * cell < 0.5 * length && cell < widest) {
         half.push_back(half.back() + cell);
-        cell *= cell_ratio;
+        cell *= core_cell_ratio;
     }
     // The rest between both halves is divided evenly.
     const double rest = length - 2 * half.back();
@@ -431,7 +407,7 @@ WakeCore make_core(std::size_t element, std::span<const Point> base, Point end, 
         const Point a = right + share * (end - right), b = left + share * (end - left);
         const std::vector<double> shares =
             place.station ? shares_between_stations((1 - share) * width, std::max(place.strip, base_cell),
-                                                    outermost_cell * growth.first_height)
+                                                    outermost_core_cell * growth.first_height)
                           : base_shares;
         std::vector<Point> chain{place.station ? a : right};
         for (std::size_t i = 1; i + 1 < shares.size(); ++i) chain.push_back(a + shares[i] * (b - a));

@@ -1,0 +1,183 @@
+// The numbers that shape the layer, in one place. Each moves something on the cases of `./dev ablate` or is a promise of
+// layers.hpp; those that moved nothing have been taken away (docs/decisions/0075). Angles are in degrees where names say so, lengths
+// and widths are shares of others. Tolerances of rounding and numbers of steps stand where they are used.
+#pragma once
+
+#include <numbers>
+
+namespace lamina::layers {
+
+// Room.
+
+/// A ray may go up to this share of the way to a wall, so that opposing fronts leave a quarter of the gap free.
+inline constexpr double wall_fraction = 0.375;
+
+/// A ray may go up to this share of the height at which it crosses another ray, so that neighbours keep more than half
+/// of their distance.
+inline constexpr double ray_fraction = 0.45;
+
+/// First layers may go beyond the limit by this factor, up to 0.75 of that height, so that walls in clefts are not bare.
+/// Neighbours keep a quarter of their distance.
+inline constexpr double first_layer_room = 0.75 / ray_fraction;
+
+/// Distance of the rays of a sample that looks for what is in the way, as a share of the largest height of the scale.
+inline constexpr double sample_spacing = 0.1;
+
+// Directions.
+
+/// Columns are widened to this many times the angle that they may open by, in heights of the front.
+inline constexpr double wanted_width_in_openings = 1.2;
+
+/// Where layers end at isotropy and corners follow each other closely, fronts are as low as columns are narrow there, and high
+/// where columns open: widths are measured at this many heights of the front, so that columns share the angles of corners.
+inline constexpr double fronts_on_jagged = 8;
+
+/// Rays should meet no nearer to the wall than at this many heights of the front. A ray ends at ray_fraction of the way to a ray
+/// that it meets, and rays that lean by 45 degrees meet at half the height.
+inline constexpr double clearance = 2 / ray_fraction;
+
+/// The stiffness of the chain where corners follow each other closely, over that elsewhere: more columns share what each has
+/// too much.
+inline constexpr double stiffness_on_jagged = 0.16;
+
+/// Largest lean of the first and the last ray of a fan, in degrees, and the share of the fan's angle that each gives at most
+/// to the columns beside it.
+inline constexpr double most_fan_lean_deg = 25, most_given_share = 0.3;
+
+/// Largest lean of a ray from the bisector, in degrees: that of a ray beside the corner of a step, parallel to the corner's. And
+/// the largest angle from the normals of both edges: cells in all rows at the wall are as skewed as that.
+inline constexpr double most_lean_deg = 45, most_lean_from_normals_deg = 57;
+
+/// Sharp concave corners without a ray: walls meet at this angle or less, in degrees. Half of it is what is left to 180 degrees in
+/// the cells beside a ray.
+inline constexpr double largest_sharp_deg = 60;
+
+/// First heights that differ by less from the one wanted stay as they are.
+inline constexpr double kept_difference = 0.009;
+
+/// Where walls turn by less, in degrees, rays are not shifted, and lean no farther than first heights allow.
+inline constexpr double max_smooth_turning_deg = 1;
+
+/// Largest shift, as a share of the shorter edge at the corner: far from what would make cells cross each other.
+inline constexpr double most_shift = 0.5;
+
+// Front and heights.
+
+/// Largest rise of the front per unit of distance along it. Two such slopes in a corner of 90 degrees leave 65 degrees to
+/// the outer region.
+inline constexpr double max_front_slope = 0.22;
+
+/// Layers on a ray that leaves the wall's edges at an angle are at most this many times as high along the ray as above
+/// the edges.
+inline constexpr double max_slant = 2;
+
+/// The growth of layers that are stretched differs from the requested growth by at most this factor.
+inline constexpr double max_stretch = 1.06;
+
+/// Where rays spread, their distance counts up to this many times that at the wall: with slow growth, layers between
+/// spreading rays never become as high as wide.
+inline constexpr double max_spread = 2;
+
+/// Where columns go on beyond isotropy, cells are at most this many times as high as wide, unless the column is so
+/// narrow that it would get many more layers than the second number.
+inline constexpr double max_tallness = 1.5, max_layers_beyond_isotropy = 20;
+
+/// The slope with which the front falls from a fan on both sides.
+inline constexpr double slope_beside_fans = 0.1;
+
+/// Largest ratio of the last spacings of neighbouring rays. The ratio of their heights is smaller still.
+inline constexpr double max_neighbour_ratio = 1.25;
+
+/// Bounds of the adaptive law's ratio.
+inline constexpr double min_adaptive_ratio = 1.05, max_adaptive_ratio = 1.5;
+
+/// A number of layers costs this much times the square of its distance from the one that is wanted.
+inline constexpr double cost_of_distance = 0.05;
+
+/// Last layers become this many times as high as if their cells had the area of squares on the front's edges: half of
+/// such a cell has the area of the triangle beyond. They become the second number times as high at least, for 0.6 times
+/// the area.
+inline constexpr double wanted_tallness = 0.91, least_tallness = 0.54;
+
+/// Rays lean along the front's edges by so much at most, as the sine between them; farther ones count as if they did.
+/// Columns of quadrilaterals count as upright.
+inline constexpr double least_sine = 0.5, sine_of_upright = 1;
+
+/// Where numbers of layers change, fronts rise by up to a quarter of the width of a column. If last layers become this
+/// many times as high as wide, the ends of the column differ by less than a third of a cell. But those of narrow
+/// columns near them become no higher than wide for it.
+inline constexpr double even_tallness = 0.86;
+
+/// Where neighbours are not changed alike, rows rise by this much per unit of distance at most. Points move by up to 0.17
+/// of the part that changes for each unit of the ratio's logarithm.
+inline constexpr double most_rise = 0.15, most_moved = 0.17;
+
+/// Last layers become no higher than this share of the part that changes: the layers below would be far lower. Columns of
+/// which they are higher, with fewer than three layers in this part, stay as they are.
+inline constexpr double max_last_share = 0.5;
+
+/// Last layers become so many times as high at the most.
+inline constexpr double max_end_ratio = 2.0;
+
+// Border.
+
+/// An edge may be this many times as long as its target before it is divided.
+inline constexpr double target_slack = 1.1;
+
+/// Gaps narrower than this share of an edge do not divide it further.
+inline constexpr double min_gap_share = 1.0 / 128;
+
+/// Targets are constant on intervals of an edge that are this share of the target long.
+inline constexpr double interval_share = 0.25;
+
+/// The top of a cell of the grid stays whole up to this many times its target: up to where its halves would be as much too
+/// short as it is too long. A point on the top of a flat cell makes an angle near 180 degrees, and halves of the tops of high
+/// ones are farther in area from the triangles beyond. Walls that are kept have no other way to become finer than their borders.
+inline constexpr double whole_top = std::numbers::sqrt2;
+
+/// A cleft ends where the gap between the fronts is this many times as wide as their edges are long.
+inline constexpr double open_gap = 2.0;
+
+/// Triangles of the strip that closes a cleft have no angle above this, in degrees.
+inline constexpr double max_cleft_angle_deg = 150;
+
+/// Distances from the corner count as equal up to this ratio.
+inline constexpr double equal_distance_ratio = 1.1;
+
+// Wakes.
+
+/// Ratio of the lengths of successive edges of a wake, and the longest edge as a share of the line.
+inline constexpr double wake_edge_ratio = 1.07, max_wake_edge_share = 0.015;
+
+/// From one vertex of a wake to the next the first height grows by these shares, at its begin and at its end. Rows of
+/// cells rise with it: by six times as much where layers end at isotropy, as a share of the edge's length.
+inline constexpr double first_wake_opening = 0.05, last_wake_opening = 0.12;
+
+/// Where layers go on beyond isotropy, rows rise much more. Over the length of their height the first height grows by
+/// this share.
+inline constexpr double opening_per_height = 0.65;
+
+/// The first height opens until this many layers of equal height would fill the height that is needed.
+inline constexpr double layers_when_open = 12;
+
+/// The last edge of a wake is this many times as long as the first layer there is high, so that fronts fall no faster
+/// than they may. The edges before are longer by this ratio, one after the other, as the border's edges may be.
+inline constexpr double last_wake_edge = 4.2, last_wake_edge_ratio = 1.09;
+
+/// The sides of a wake meet this many times the width of the base behind it.
+inline constexpr double core_length = 4;
+
+/// A base so wide that they would meet beyond this share of the wake gets none.
+inline constexpr double max_core_share = 0.1;
+
+/// The next chain behind a base follows by the law where that makes a strip lower than this share of an edge of the wake.
+inline constexpr double max_layer_share = 0.7;
+
+/// The last station behind a base is at least this share of an edge before the end.
+inline constexpr double min_last_share = 0.6;
+
+/// The outermost cells between stations are this many first heights wide, like the first cells on the other side of the
+/// wake; each one further in is wider by the ratio. Wide cells beside the first ones made a flow solver diverge.
+inline constexpr double outermost_core_cell = 2, core_cell_ratio = 1.4;
+
+}  // namespace lamina::layers
