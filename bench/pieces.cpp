@@ -18,7 +18,7 @@
 #include "core/parallel.hpp"
 #include "delaunay/pieces/convex_hull.hpp"
 #include "delaunay/pieces/pieces.hpp"
-#include "delaunay/triangulate_points.hpp"
+#include "delaunay/triangulate/triangulate_points.hpp"
 #include "paired.hpp"
 #include "support/triangulation_families.hpp"
 

@@ -15,7 +15,7 @@
 #include <lamina/dynamic_triangulation.hpp>
 #include <lamina/threads.hpp>
 
-#include "delaunay/triangulate_points.hpp"
+#include "delaunay/triangulate/triangulate_points.hpp"
 #include "support/point_sets.hpp"
 #include "support/triangulation_families.hpp"
 

@@ -24,14 +24,14 @@ SOURCE = REPOSITORY / "src"
 PAIRS = {
     "lamina_delaunay": (
         ["triangulation", "error", "predicates", "threads"],
-        ["core/error.cpp", "core/parallel_none.cpp", "delaunay/check_triangulation.cpp", "delaunay/constrained.cpp",
-         "delaunay/flat_triangles.cpp",
-         "delaunay/merge_points.cpp", "delaunay/triangulate_whole.cpp"]),
+        ["core/error.cpp", "core/parallel_none.cpp", "delaunay/triangulate/check_triangulation.cpp", "delaunay/constrain/constrained.cpp",
+         "delaunay/constrain/flat_triangles.cpp",
+         "delaunay/triangulate/merge_points.cpp", "delaunay/constrain/triangulate_whole.cpp"]),
     "lamina_delaunay_queries": (
         ["delaunay_connectivity", "delaunay_queries", "voronoi"],
-        ["delaunay/connectivity.cpp", "delaunay/queries/locate.cpp", "delaunay/queries/make_query_index.cpp",
+        ["delaunay/queries/connectivity.cpp", "delaunay/queries/locate.cpp", "delaunay/queries/make_query_index.cpp",
          "delaunay/queries/natural_neighbours.cpp", "delaunay/queries/triangulation_index.cpp",
-         "delaunay/voronoi.cpp"]),
+         "delaunay/queries/voronoi.cpp"]),
     "lamina_delaunay_dynamic": (
         ["dynamic_triangulation"],
         ["delaunay/dynamic/dynamic_triangulation.cpp", "delaunay/dynamic/remove_point.cpp"]),

@@ -5,7 +5,7 @@
 
 - A folder may include the folders that its CMakeLists.txt names after DEPENDS, and those that they depend on. The
   dependencies have no circle.
-- The subfolder delaunay/pieces may include the rest of delaunay, which may not include it.
+- Some folders have rooms. A room may include those that stand before it in ROOMS; files beside the rooms may include all.
 - app/ includes public headers (<lamina/...>) and its own headers alone.
 - A public header includes public headers alone, of its own folder or of those that this folder depends on.
 - Inside a folder headers do not include each other in a circle.
@@ -24,6 +24,12 @@ import sys
 REPOSITORY = pathlib.Path(__file__).resolve().parent.parent
 SOURCE = REPOSITORY / "src"
 PUBLIC = REPOSITORY / "include" / "lamina"
+
+# The rooms of folders, each after those that it may include.
+ROOMS = {
+    "delaunay": ["triangulate", "constrain", "refine", "queries", "dynamic", "pieces"],
+    "layers": ["wake", "directions", "heights", "room", "cells", "border"],
+}
 
 # The folder that owns each public header; a header that is not listed belongs to the folder of its name.
 OWNERS = {name: "core" for name in ("angle_bounds", "conditions", "error", "export", "files", "ids", "interruption",
@@ -89,6 +95,11 @@ def owner(header):
     return OWNERS.get(header, header)
 
 
+def is_room_allowed(rooms, room, included):
+    """Returns whether a room may include another; files beside the rooms may include all, and may be included by all."""
+    return room not in rooms or included not in rooms or rooms.index(included) <= rooms.index(room)
+
+
 def check_file(file, folder, allowed):
     """Yields the violations of one source file or private header."""
     inside = file.relative_to(SOURCE)
@@ -103,8 +114,8 @@ def check_file(file, folder, allowed):
             yield f'{where}: app may include public headers alone, not "{path}"'
         elif target not in allowed | {folder}:
             yield f'{where}: {folder} may not include "{path}"'
-        elif path.startswith("delaunay/pieces/") and folder == "delaunay" and inside.parts[1] != "pieces":
-            yield f'{where}: delaunay may not include its subfolder "{path}"'
+        elif folder == target and not is_room_allowed(ROOMS.get(folder, []), inside.parts[1], path.split("/")[1]):
+            yield f'{where}: {folder}/{inside.parts[1]} may not include "{path}"'
 
 
 def check_public(file, allowed):

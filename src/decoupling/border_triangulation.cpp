@@ -16,9 +16,9 @@
 
 #include "core/predicates.hpp"
 #include "core/segments.hpp"
-#include "delaunay/insert_segments.hpp"
-#include "delaunay/regions.hpp"
-#include "delaunay/triangulate_points.hpp"
+#include "delaunay/constrain/insert_segments.hpp"
+#include "delaunay/constrain/regions.hpp"
+#include "delaunay/triangulate/triangulate_points.hpp"
 
 namespace lamina::decoupling {
 

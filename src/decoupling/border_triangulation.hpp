@@ -10,8 +10,8 @@
 #include <lamina/sizing.hpp>
 
 #include "decoupling/line_border.hpp"
-#include "delaunay/estimate.hpp"
-#include "delaunay/triangles.hpp"
+#include "delaunay/refine/estimate.hpp"
+#include "delaunay/triangulate/triangles.hpp"
 
 namespace lamina::decoupling {
 

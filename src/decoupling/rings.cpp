@@ -15,7 +15,7 @@
 #include <cmath>
 
 #include "core/bounding_box.hpp"
-#include "delaunay/estimate.hpp"
+#include "delaunay/refine/estimate.hpp"
 
 namespace lamina::decoupling {
 

@@ -6,7 +6,7 @@
 
 #include "core/parallel.hpp"
 #include "pipeline/assemble.hpp"
-#include "pipeline/piece_streamer.hpp"
+#include "pipeline/sharing/piece_streamer.hpp"
 
 namespace lamina::pipeline {
 

@@ -8,7 +8,7 @@
 #include <lamina/delaunay.hpp>
 
 #include "core/edge_links.hpp"
-#include "delaunay/refine_region.hpp"
+#include "delaunay/refine/refine_region.hpp"
 
 namespace lamina {
 namespace {

@@ -11,7 +11,7 @@
 #include <lamina/threads.hpp>
 
 #include "delaunay/pieces/line_partition.hpp"
-#include "delaunay/triangulate_points.hpp"
+#include "delaunay/triangulate/triangulate_points.hpp"
 #include "support/constrained_cases.hpp"
 #include "support/point_sets.hpp"
 #include "support/triangulation_checks.hpp"

@@ -14,7 +14,7 @@
 #include <lamina/predicates.hpp>
 
 #include "core/segments.hpp"
-#include "delaunay/planarize.hpp"
+#include "delaunay/constrain/planarize.hpp"
 #include "support/point_sets.hpp"
 #include "support/triangulation_checks.hpp"
 

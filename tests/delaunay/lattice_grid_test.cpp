@@ -1,5 +1,5 @@
 // The vertices of a lattice that lie inside a region.
-#include "delaunay/lattice_grid.hpp"
+#include "delaunay/refine/lattice_grid.hpp"
 
 #include <cmath>
 #include <vector>

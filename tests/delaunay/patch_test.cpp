@@ -7,8 +7,8 @@
 #include <lamina/delaunay.hpp>
 
 #include "core/predicates.hpp"
-#include "delaunay/link_triangles.hpp"
-#include "delaunay/patch.hpp"
+#include "delaunay/refine/patch.hpp"
+#include "delaunay/triangulate/link_triangles.hpp"
 #include "support/point_sets.hpp"
 
 namespace lamina::test {

@@ -10,7 +10,7 @@
 #include <lamina/error.hpp>
 
 #include "core/parallel.hpp"
-#include "delaunay/triangulate_points.hpp"
+#include "delaunay/triangulate/triangulate_points.hpp"
 #include "support/point_sets.hpp"
 #include "support/triangulation_families.hpp"
 

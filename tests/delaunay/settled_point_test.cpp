@@ -1,5 +1,5 @@
 // Places of new vertices that rounding errors do not change.
-#include "delaunay/settled_point.hpp"
+#include "delaunay/triangulate/settled_point.hpp"
 
 #include <cmath>
 

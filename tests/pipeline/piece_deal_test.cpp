@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/random.hpp"
-#include "pipeline/piece_deal.hpp"
+#include "pipeline/sharing/piece_deal.hpp"
 
 namespace lamina::test {
 namespace {

@@ -14,7 +14,7 @@
 #include <lamina/shared_mesh.hpp>
 #include <lamina/stream.hpp>
 
-#include "pipeline/shared_seams.hpp"
+#include "pipeline/sharing/shared_seams.hpp"
 #include "pipeline/stream_cases.hpp"
 #include "support/pvtu_parts.hpp"
 #include "support/temporary_folder.hpp"

@@ -11,10 +11,10 @@
 #include "core/arguments.hpp"
 #include "core/bounding_box.hpp"
 #include "core/text.hpp"
-#include "delaunay/brio.hpp"
 #include "delaunay/dynamic/dynamic_tris.hpp"
-#include "delaunay/hilbert.hpp"
-#include "delaunay/walk.hpp"
+#include "delaunay/triangulate/brio.hpp"
+#include "delaunay/triangulate/hilbert.hpp"
+#include "delaunay/triangulate/walk.hpp"
 
 namespace lamina {
 

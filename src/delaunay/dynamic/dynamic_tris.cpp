@@ -12,7 +12,7 @@
 
 #include "core/predicates.hpp"
 #include "core/random.hpp"
-#include "delaunay/walk.hpp"
+#include "delaunay/triangulate/walk.hpp"
 
 namespace lamina::delaunay::dynamic {
 

@@ -10,9 +10,9 @@
 #include <lamina/ids.hpp>
 #include <lamina/point.hpp>
 
-#include "delaunay/cavity.hpp"
-#include "delaunay/insert_segments.hpp"
-#include "delaunay/triangles.hpp"
+#include "delaunay/constrain/insert_segments.hpp"
+#include "delaunay/triangulate/cavity.hpp"
+#include "delaunay/triangulate/triangles.hpp"
 
 namespace lamina::delaunay::dynamic {
 

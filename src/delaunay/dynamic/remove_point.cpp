@@ -17,7 +17,7 @@
 
 #include "core/predicates.hpp"
 #include "delaunay/dynamic/dynamic_tris.hpp"
-#include "delaunay/walk.hpp"
+#include "delaunay/triangulate/walk.hpp"
 
 namespace lamina::delaunay::dynamic {
 

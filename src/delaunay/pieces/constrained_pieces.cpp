@@ -2,7 +2,7 @@
 // segments that lie inside it; join the leaves; insert the other segments. Borders of leaves are edges of the
 // triangulation without segments. They stay edges where no segment crosses them, so what is inserted in a leaf is
 // constrained Delaunay in the whole.
-#include "delaunay/constrained_pieces.hpp"
+#include "delaunay/constrain/constrained_pieces.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -12,14 +12,14 @@
 #include <lamina/delaunay.hpp>
 
 #include "core/parallel.hpp"
+#include "delaunay/constrain/regions.hpp"
 #include "delaunay/pieces/convex_hull.hpp"
 #include "delaunay/pieces/cut_piece.hpp"
 #include "delaunay/pieces/insert_in_parts.hpp"
 #include "delaunay/pieces/leaf_brio.hpp"
 #include "delaunay/pieces/vertex_index_map.hpp"
 #include "delaunay/pieces/whole_piece.hpp"
-#include "delaunay/regions.hpp"
-#include "delaunay/triangulate_points.hpp"
+#include "delaunay/triangulate/triangulate_points.hpp"
 
 namespace lamina::delaunay::pieces {
 

@@ -3,7 +3,7 @@
 
 #include <lamina/point.hpp>
 
-#include "delaunay/triangles.hpp"
+#include "delaunay/triangulate/triangles.hpp"
 
 namespace lamina::delaunay::pieces {
 

@@ -28,12 +28,12 @@
 #include "core/interruption_point.hpp"
 #include "core/parallel.hpp"
 #include "core/uninitialized.hpp"
-#include "delaunay/arguments.hpp"
-#include "delaunay/brio.hpp"
-#include "delaunay/growing.hpp"
 #include "delaunay/pieces/triangle_parts.hpp"
-#include "delaunay/triangulate_points.hpp"
-#include "delaunay/walk.hpp"
+#include "delaunay/triangulate/arguments.hpp"
+#include "delaunay/triangulate/brio.hpp"
+#include "delaunay/triangulate/growing.hpp"
+#include "delaunay/triangulate/triangulate_points.hpp"
+#include "delaunay/triangulate/walk.hpp"
 
 namespace lamina::delaunay::pieces {
 

@@ -7,8 +7,8 @@
 #include <lamina/ids.hpp>
 #include <lamina/point.hpp>
 
-#include "delaunay/insert_segments.hpp"
-#include "delaunay/triangles.hpp"
+#include "delaunay/constrain/insert_segments.hpp"
+#include "delaunay/triangulate/triangles.hpp"
 
 namespace lamina::delaunay::pieces {
 

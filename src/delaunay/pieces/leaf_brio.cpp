@@ -12,7 +12,7 @@
 #include <array>
 #include <cmath>
 
-#include "delaunay/brio.hpp"
+#include "delaunay/triangulate/brio.hpp"
 
 namespace lamina::delaunay::pieces {
 

@@ -8,7 +8,7 @@
 #include <lamina/ids.hpp>
 #include <lamina/point.hpp>
 
-#include "delaunay/triangles.hpp"
+#include "delaunay/triangulate/triangles.hpp"
 
 namespace lamina::delaunay::pieces {
 

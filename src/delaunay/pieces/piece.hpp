@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/uninitialized.hpp"
-#include "delaunay/triangles.hpp"
+#include "delaunay/triangulate/triangles.hpp"
 
 namespace lamina::delaunay::pieces {
 

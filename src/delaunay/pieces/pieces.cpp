@@ -15,14 +15,14 @@
 #include <lamina/error.hpp>
 
 #include "core/parallel.hpp"
+#include "delaunay/constrain/regions.hpp"
 #include "delaunay/pieces/convex_hull.hpp"
 #include "delaunay/pieces/cut_piece.hpp"
 #include "delaunay/pieces/grow_in_parts.hpp"
 #include "delaunay/pieces/leaf_brio.hpp"
 #include "delaunay/pieces/vertex_index_map.hpp"
 #include "delaunay/pieces/whole_piece.hpp"
-#include "delaunay/regions.hpp"
-#include "delaunay/triangulate_points.hpp"
+#include "delaunay/triangulate/triangulate_points.hpp"
 
 namespace lamina::delaunay::pieces {
 

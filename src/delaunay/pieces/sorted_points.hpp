@@ -8,7 +8,7 @@
 
 #include "core/busy_times.hpp"
 #include "core/uninitialized.hpp"
-#include "delaunay/triangles.hpp"
+#include "delaunay/triangulate/triangles.hpp"
 
 namespace lamina::delaunay::pieces {
 

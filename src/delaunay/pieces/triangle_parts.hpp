@@ -7,8 +7,8 @@
 
 #include <lamina/point.hpp>
 
-#include "delaunay/growing.hpp"
-#include "delaunay/triangles.hpp"
+#include "delaunay/triangulate/growing.hpp"
+#include "delaunay/triangulate/triangles.hpp"
 
 namespace lamina::delaunay::pieces {
 

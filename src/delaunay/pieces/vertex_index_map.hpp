@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "delaunay/triangles.hpp"
+#include "delaunay/triangulate/triangles.hpp"
 
 namespace lamina::delaunay::pieces {
 

@@ -10,7 +10,7 @@
 #include "core/parallel.hpp"
 #include "core/predicates.hpp"
 #include "delaunay/queries/query_index.hpp"
-#include "delaunay/walk.hpp"
+#include "delaunay/triangulate/walk.hpp"
 
 namespace lamina::delaunay::queries {
 

@@ -11,12 +11,12 @@
 #include "core/bounding_box.hpp"
 #include "core/parallel.hpp"
 #include "core/text.hpp"
-#include "delaunay/arguments.hpp"
-#include "delaunay/insert_segments.hpp"
+#include "delaunay/constrain/insert_segments.hpp"
+#include "delaunay/constrain/regions.hpp"
 #include "delaunay/queries/query_index.hpp"
-#include "delaunay/regions.hpp"
-#include "delaunay/triangulate_points.hpp"
-#include "delaunay/walk.hpp"
+#include "delaunay/triangulate/arguments.hpp"
+#include "delaunay/triangulate/triangulate_points.hpp"
+#include "delaunay/triangulate/walk.hpp"
 
 namespace lamina::delaunay::queries {
 

@@ -19,8 +19,8 @@
 
 #include "core/predicates.hpp"
 #include "delaunay/queries/query_index.hpp"
-#include "delaunay/triangle_shape.hpp"
-#include "delaunay/walk.hpp"
+#include "delaunay/refine/triangle_shape.hpp"
+#include "delaunay/triangulate/walk.hpp"
 
 namespace lamina::delaunay::queries {
 

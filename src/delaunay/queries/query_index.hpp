@@ -14,9 +14,9 @@
 #include <lamina/ids.hpp>
 #include <lamina/point.hpp>
 
-#include "delaunay/cavity.hpp"
-#include "delaunay/hilbert.hpp"
-#include "delaunay/triangles.hpp"
+#include "delaunay/triangulate/cavity.hpp"
+#include "delaunay/triangulate/hilbert.hpp"
+#include "delaunay/triangulate/triangles.hpp"
 
 namespace lamina::delaunay::queries {
 

@@ -9,7 +9,6 @@
 #include "layers/directions/corners.hpp"
 #include "layers/directions/lean_chain.hpp"
 #include "layers/parameters.hpp"
-#include "layers/room/truncation.hpp"
 
 namespace lamina::layers {
 

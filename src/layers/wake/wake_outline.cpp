@@ -24,7 +24,6 @@
 #include "core/box_tree.hpp"
 #include "core/segments.hpp"
 #include "layers/parameters.hpp"
-#include "layers/room/truncation.hpp"
 #include "layers/stages.hpp"
 
 namespace lamina::layers {
