@@ -26,6 +26,29 @@ std::vector<std::string> with_options_for_words(std::vector<std::string> argumen
     return arguments;
 }
 
+/// Where --help asks for the short help of a command, takes its further options out of it; --help-all becomes --help.
+void choose_help(CLI::App& app, std::vector<std::string>& arguments) {
+    const auto all = std::find(arguments.begin(), arguments.end(), "--help-all");
+    if (all != arguments.end()) {
+        *all = "--help";
+        return;
+    }
+    if (std::none_of(arguments.begin(), arguments.end(),
+                     [](const std::string& word) { return word == "--help" || word == "-h"; }))
+        return;
+    for (CLI::App* command : app.get_subcommands({})) {
+        std::size_t further = 0;
+        for (CLI::Option* option : command->get_options()) {
+            if (!option->get_group().ends_with(further_options)) continue;
+            option->group("");
+            ++further;
+        }
+        if (further > 0)
+            command->footer("lamina " + command->get_name() + " --help-all shows " + std::to_string(further) +
+                            " further options.\n\n" + command->get_footer());
+    }
+}
+
 /// Throws UsageError for unknown commands, for which CLI11 would say that the command is missing.
 void require_known_command(const CLI::App& app, const std::string& command) {
     if (command.starts_with("-")) return;
@@ -167,6 +190,7 @@ std::string reason_of(const CLI::ParseError& error) {
 
 void run_arguments(CLI::App& app, std::vector<std::string> arguments) {
     arguments = with_options_for_words(std::move(arguments));
+    choose_help(app, arguments);
     check_values(app);
     require_known_command(app, arguments.front());
     require_values(app, arguments);

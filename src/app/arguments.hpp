@@ -2,11 +2,15 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
 namespace lamina::app {
+
+/// The end of the names of groups of options that --help leaves to --help-all.
+inline constexpr std::string_view further_options = ", further";
 
 /// Runs the command that the arguments name. `lamina help COMMAND` and `lamina version` do the same as the options.
 /// Throws UsageError with a hint for unknown commands and options, and the errors of the command.

@@ -1,6 +1,7 @@
 // lamina mesh: makes a mesh round airfoils and writes it.
 #include <memory>
 
+#include "app/arguments.hpp"
 #include "app/case_file.hpp"
 #include "app/commands.hpp"
 #include "app/format_help.hpp"
@@ -19,7 +20,7 @@ void add_mesh_command(CLI::App& app, Ranks* ranks) {
     command->add_flag("--dump-config", *dump, "print the options in force as a case file, and do nothing else")
         ->group("Run");
     command->add_flag("--options-as-markdown", *markdown, "print a table of all options, and do nothing else")
-        ->group("Run");
+        ->group("Run" + std::string(further_options));
     command->callback([options, dump, markdown, ranks] {
         if (*markdown) return print_result(options_as_markdown());
         MeshCase mesh_case = case_of_command_line(*options);

@@ -5,11 +5,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include <lamina/error.hpp>
 #include <lamina/files.hpp>
 #include <lamina/io.hpp>
 
+#include "app/arguments.hpp"
 #include "app/options.hpp"
 #include "app/presets.hpp"
 #include "app/progress.hpp"
@@ -18,14 +20,23 @@ namespace lamina::app {
 
 namespace {
 
+/// The options that most meshes need, in tasks: those that the short help shows.
+constexpr std::string_view short_help[] = {
+    "input",          "output",    "preset",       "format", "report",         "html",      "surface",
+    "surface-points", "names",     "transform",    "alpha",  "chord",          "mach",      "reynolds",
+    "y-plus",         "growth",    "first-height", "layers", "layer-topology", "no-layers", "max-ray-angle",
+    "far-field",      "gradation", "wake",         "refine", "threads"};
+
 CLI::Option* add_option(CLI::App& command, const Option<MeshCase>& option) {
     const std::string help = help_text(option);
-    if (option.kind == OptionKind::flag) return command.add_flag(command_line_name(option), help)->group(option.group);
+    const bool is_short = std::find(std::begin(short_help), std::end(short_help), option.name) != std::end(short_help);
+    const std::string group = option.group + (is_short ? "" : std::string(further_options));
+    if (option.kind == OptionKind::flag) return command.add_flag(command_line_name(option), help)->group(group);
 
     // The option is set only once the case file is read, so nothing is done with its value here.
     CLI::Option* given = command.add_option(
         command_line_name(option), [](const CLI::results_t&) { return true; }, help);
-    given->group(option.group)->type_name(option.metavar);
+    given->group(group)->type_name(option.metavar);
     if (option.kind == OptionKind::words) return given->delimiter(',')->expected(1, -1)->allow_extra_args(false);
     if (option.kind == OptionKind::repeated)
         return given->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

@@ -14,7 +14,7 @@ const char* const commands[] = {"mesh", "family",  "sizes", "batch", "case",    
 
 /// Returns the long options that the help of a command shows.
 std::vector<std::string> options_in_help(const TemporaryFolder& folder, const std::string& command) {
-    const std::string help = run_lamina(folder, {command, "--help"}).out;
+    const std::string help = run_lamina(folder, {command, "--help-all"}).out;
     std::vector<std::string> options;
     for (std::size_t at = help.find("\n  -"); at != std::string::npos; at = help.find("\n  -", at + 1)) {
         const std::size_t begin = help.find("--", at);

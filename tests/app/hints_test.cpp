@@ -183,6 +183,17 @@ TEST(Hints, HelpAndVersionInEveryForm) {
     for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
              {"-V"}, {"version"}, {"mesh", "--version"}, {"delaunay", "--version"}, {"mesh", "naca:0012", "--version"}})
         EXPECT_EQ(run_lamina(folder, arguments).out, version) << arguments.front();
+    const std::string all = run_lamina(folder, {"mesh", "--help-all"}).out;
+    const auto options_in = [](const std::string& text) {
+        std::size_t count = 0;
+        for (std::size_t at = text.find("\n  -"); at != std::string::npos; at = text.find("\n  -", at + 1)) ++count;
+        return count;
+    };
+    EXPECT_LE(options_in(mesh_help), 27u) << "those that users need";
+    EXPECT_GT(options_in(all), 60u);
+    EXPECT_NE(mesh_help.find("lamina mesh --help-all shows "), std::string::npos);
+    EXPECT_EQ(run_lamina(folder, {"help", "mesh", "--help-all"}).out, all);
+    EXPECT_EQ(run_lamina(folder, {"convert", "--help-all"}).out, run_lamina(folder, {"convert", "--help"}).out);
 }
 
 // The bodies would fit into the far field: it is the layers that do not.
