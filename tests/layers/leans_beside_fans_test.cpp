@@ -145,8 +145,8 @@ TEST(LeansBesideFans, KeepsFirstHeightsInConcaveWalls) {
                 const RayLine &before = rays[i - 1], &ray = rays[i], &next = rays[i + 1];
                 if (ray.origin.x < 0 || ray.origin.y < 0 || length(ray.origin) > 0.4) continue;
                 const Point top = layers::first_height_along(ray, growth.first_height) * ray.direction + ray.shift;
-                for (const Point edge : {ray.origin - before.origin, next.origin - ray.origin})
-                    EXPECT_NEAR(dot(-perpendicular(unit(edge)), top) / growth.first_height, 1, 0.0095)
+                for (const Point side : {ray.origin - before.origin, next.origin - ray.origin})
+                    EXPECT_NEAR(dot(-perpendicular(unit(side)), top) / growth.first_height, 1, 0.0095)
                         << ray.origin.x << " " << ray.origin.y;
             }
         }

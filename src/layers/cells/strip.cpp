@@ -115,7 +115,7 @@ double StripCutter::burden_via_lower(std::size_t i, std::size_t j) const {
 namespace {
 
 /// Costs closer than this, relatively, count as equal.
-constexpr double rounding = 1e-6;
+constexpr double cost_rounding = 1e-6;
 bool has_corner(const Triangle& t, VertexId v) { return t.v[0] == v || t.v[1] == v || t.v[2] == v; }
 
 /// Returns the quadrilateral of two triangles that share an edge, counter-clockwise from `a` on.
@@ -197,13 +197,13 @@ Joint best_joint(std::span<const Point> points, std::span<const Triangle> triang
     const auto k = static_cast<std::size_t>(on_edge - triangles.begin());
     const CellCut cut(points, triangles);
     const std::size_t n = triangles.size();
-    Joint best{n, cut.worst_face(n) * (1 + rounding), {}};
+    Joint best{n, cut.worst_face(n) * (1 + cost_rounding), {}};
     for (const bool before : {first_leads, !first_leads}) {
         if (before ? k == 0 : k + 1 == n) continue;
         const std::size_t first = before ? k - 1 : k;
         const Quad quad = joined(triangles[first], triangles[first + 1], a);
         const double cost = cut.worst_face(first);
-        if (cost < best.cost && cut.is_convex(quad)) best = {first, cost * (1 - rounding), quad};
+        if (cost < best.cost && cut.is_convex(quad)) best = {first, cost * (1 - cost_rounding), quad};
     }
     return best;
 }
