@@ -1,4 +1,5 @@
-// The share of the requested layers that was made, everywhere and where nothing is in their way.
+// What reports say of a layer: the share of the requested cells that was made, everywhere and where nothing is in their way, and
+// how evenly columns end.
 #include "layers/measures.hpp"
 
 #include <algorithm>

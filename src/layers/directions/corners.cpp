@@ -1,3 +1,5 @@
+// Concave corners: sharp ones have no ray, and the rays of others are shifted.
+//
 // The one ray of a sharp corner is so near to the walls on both sides that each cell beside it has an angle of 180
 // degrees less half of the corner's, whatever its size. So such a corner has no ray, and the rays beside it are
 // neighbours:
@@ -101,8 +103,8 @@ void leave_out_sharp_corners(double first_height, std::vector<RayVertex>& outlin
 
 namespace {
 
-/// Returns the shift of a ray of its own at a vertex; none where the wall turns by least_turning or less, in radians.
-/// along: first height along the ray; height: above the edges.
+/// Returns the shift of the one ray of a vertex; none where first heights are right without one, and where the wall hardly
+/// turns. along: first height along the ray; height: above the edges.
 Point shift_at_corner(const RayLine& before, const RayLine& ray, const RayLine& after, double along, double height) {
     const WallNeighbours vertices = wall_neighbours(before, ray, after);
     const Point edge_before = ray.origin - vertices.before, edge_after = vertices.after - ray.origin;

@@ -1,4 +1,5 @@
-// Rays shortened where the layer leaves no room for good triangles beyond it.
+// Columns that are lowered once cells have been seen: where the layer leaves no room for good triangles beyond it, and below
+// cells with large angles.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
