@@ -284,8 +284,8 @@ struct Layer {
     std::vector<LayerCore> cores;           ///< the spaces behind bases, parts of the layer
     std::vector<LayerCleft> clefts;         ///< those that are closed, parts of the layer, in the order of the rays
     LayerEdges edges;                       ///< layer_edges() of this layer
-    std::vector<char>
-        jagged{};  ///< one per element: whether it is resampled between so many corners that it is not smooth
+    /// One per element: whether it is resampled between so many corners that it is not smooth, as iced ones are.
+    std::vector<char> jagged{};
 };
 
 /// Returns the edges of the walls and borders of a layer: Layer::edges.

@@ -28,8 +28,8 @@ inline constexpr double sample_spacing = 0.1;
 /// Columns are widened to this many times the angle that they may open by, in heights of the front.
 inline constexpr double wanted_width_in_openings = 1.2;
 
-/// Where layers end at isotropy and corners follow each other closely, fronts are as low as columns are narrow there, and high
-/// where columns open: widths are measured at this many heights of the front, so that columns share the angles of corners.
+/// The widths of columns on jagged outlines are measured at this many heights of the front where layers end at isotropy. Fronts
+/// are as low there as columns are narrow, and columns are to share the angles of corners.
 inline constexpr double fronts_on_jagged = 8;
 
 /// Rays should meet no nearer to the wall than at this many heights of the front. A ray ends at ray_fraction of the way to a ray
@@ -55,7 +55,8 @@ inline constexpr double largest_sharp_deg = 60;
 /// First heights that differ by less from the one wanted stay as they are.
 inline constexpr double kept_difference = 0.009;
 
-/// Where walls turn by less, in degrees, rays are not shifted, and lean no farther than first heights allow.
+/// The turning of a wall, in degrees, up to which the ray of a vertex is not shifted. It leans no farther then than its first height
+/// allows (kept_difference).
 inline constexpr double max_smooth_turning_deg = 1;
 
 /// Largest shift, as a share of the shorter edge at the corner: far from what would make cells cross each other.
@@ -74,12 +75,12 @@ inline constexpr double max_slant = 2;
 /// The growth of layers that are stretched differs from the requested growth by at most this factor.
 inline constexpr double max_stretch = 1.06;
 
-/// Where rays spread, their distance counts up to this many times that at the wall: with slow growth, layers between
-/// spreading rays never become as high as wide.
+/// The distance of rays that spread counts up to this many times that at the wall: with slow growth, layers between spreading
+/// rays never become as high as wide.
 inline constexpr double max_spread = 2;
 
-/// Where columns go on beyond isotropy, cells are at most this many times as high as wide, unless the column is so
-/// narrow that it would get many more layers than the second number.
+/// Cells of columns that go on beyond isotropy are at most this many times as high as wide, unless the column is so narrow that it
+/// would get many more layers than the second number.
 inline constexpr double max_tallness = 1.5, max_layers_beyond_isotropy = 20;
 
 /// The slope with which the front falls from a fan on both sides.
@@ -103,13 +104,13 @@ inline constexpr double wanted_tallness = 0.91, least_tallness = 0.54;
 /// Columns of quadrilaterals count as upright.
 inline constexpr double least_sine = 0.5, sine_of_upright = 1;
 
-/// Where numbers of layers change, fronts rise by up to a quarter of the width of a column. If last layers become this
-/// many times as high as wide, the ends of the column differ by less than a third of a cell. But those of narrow
-/// columns near them become no higher than wide for it.
+/// Last layers become at least this many times as high as wide beside changes of the number of layers. Fronts rise there by up to
+/// a quarter of the width of a column, which is less than a third of such a cell. Those of narrow columns near them become no
+/// higher than wide for it.
 inline constexpr double even_tallness = 0.86;
 
-/// Where neighbours are not changed alike, rows rise by this much per unit of distance at most. Points move by up to 0.17
-/// of the part that changes for each unit of the ratio's logarithm.
+/// Rows rise by this much per unit of distance at most where the last spacings of neighbouring columns are changed by different
+/// ratios. Points move by up to the second number of the part that changes for each unit of the ratio's logarithm.
 inline constexpr double most_rise = 0.15, most_moved = 0.17;
 
 /// Last layers become no higher than this share of the part that changes: the layers below would be far lower. Columns of
@@ -153,8 +154,8 @@ inline constexpr double wake_edge_ratio = 1.07, max_wake_edge_share = 0.015;
 /// cells rise with it: by six times as much where layers end at isotropy, as a share of the edge's length.
 inline constexpr double first_wake_opening = 0.05, last_wake_opening = 0.12;
 
-/// Where layers go on beyond isotropy, rows rise much more. Over the length of their height the first height grows by
-/// this share.
+/// The first height along a wake whose layers go on beyond isotropy grows by this share over the length of their height, since
+/// rows rise much more there.
 inline constexpr double opening_per_height = 0.65;
 
 /// The first height opens until this many layers of equal height would fill the height that is needed.

@@ -41,7 +41,7 @@ struct RayLine {
 /// heights. The growth from layer to layer above it is that of the law times `factor`, times factor * change, times
 /// factor * change^2, and so on.
 struct Stretch {
-    double factor = 1;        ///< 1 where nothing is stretched
+    double factor = 1;        ///< 1, with a change of 1, where nothing is stretched
     double change = 1;        ///< 1 where the last spacing is free
     std::uint32_t above = 0;  ///< at least 1 where anything is stretched: the first layer never is
 };

@@ -121,7 +121,7 @@ Point shift_at_corner(const RayLine& before, const RayLine& ray, const RayLine& 
 }
 
 /// Returns the largest lean of the one ray of a vertex, in radians, at which it is higher above one of the edges at its origin
-/// than above the other by no more than twice 0.009 of their mean. A ray that leans by t where the wall turns by 2 b is
+/// than above the other by no more than twice kept_difference of their mean. A ray that leans by t where the wall turns by 2 b is
 /// cos(t + b) / (cos t cos b) = 1 - tan t tan b times that mean above one edge, 1 + tan t tan b times above the other.
 double max_unshifted_lean(double turning) {
     const double b = 0.5 * std::abs(turning);

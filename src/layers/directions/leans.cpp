@@ -47,7 +47,7 @@ struct Leaners {
     std::vector<double*> leans;
 };
 
-/// Returns the chain problem of an outline whose rays lean as they do.
+/// Returns the chain problem of an outline: what its columns lack without leans, and where the leans of its rays go.
 Leaners leaners_of(std::span<const RayVertex> outline, std::span<const double> heights, double wanted,
                    double first_height, std::span<WallVertex> vertices) {
     const std::size_t n = outline.size();

@@ -76,7 +76,7 @@ double max_factor_below(double height, std::span<const double> heights, std::uin
 }  // namespace
 
 void stretch_heights(const Stretch& stretch, std::span<double> heights) {
-    if (stretch.factor == 1 || heights.size() <= stretch.above) return;
+    if ((stretch.factor == 1 && stretch.change == 1) || heights.size() <= stretch.above) return;
     double height_below = heights[stretch.above], height = height_below, product = 1, factor = stretch.factor;
     for (double& h : heights.subspan(stretch.above + std::size_t{1})) {
         product *= factor;
