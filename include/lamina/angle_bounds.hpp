@@ -8,8 +8,7 @@ namespace lamina {
 inline constexpr double proved_min_angle_deg = 20.7;
 
 /// The largest bound, in degrees, that refinement accepts for the smallest angle. Between proved_min_angle_deg and this
-/// bound refinement ended in all trials, but it may leave triangles below the bound, which are counted
-/// (docs/decisions/0002).
+/// bound refinement ended in all trials, but it may leave triangles below the bound, which are counted.
 inline constexpr double max_min_angle_deg = 33;
 
 }  // namespace lamina

@@ -194,7 +194,7 @@ LAMINA_EXPORT ConstrainedTriangulation constrain_triangles(std::span<const Point
                                                            std::span<const Segment> segments = {},
                                                            std::span<const std::uint32_t> merged_into = {});
 
-/// The triangles that a refinement of a constrained triangulation will make, by estimate (docs/decisions/0020).
+/// The triangles that a refinement of a constrained triangulation will make, by estimate.
 struct RefinementEstimate {
     double by_sizes = 0;   ///< as many as there are, or as the sizes ask for: right within a few percent
     double by_angles = 0;  ///< as many as the angle bound asks for without any sizes: right within a factor of three

@@ -1,5 +1,5 @@
 // Indices with a type of their own, so that a vertex cannot be taken for a triangle. 32 bits suffice for 4.29e9
-// vertices (docs/decisions/0005); counts and offsets are std::size_t.
+// vertices and half the memory of 64; counts and offsets are std::size_t.
 #pragma once
 
 #include <cstddef>

@@ -42,7 +42,7 @@ enum class CornerRays {
     refine  ///< one ray from the vertex, and refining rays on the edges beside it
 };
 
-/// How the points of the layer are joined to cells. All three use the same points (docs/decisions/0012).
+/// How the points of the layer are joined to cells. All three use the same points.
 enum class LayerTopology {
     delaunay,  ///< constrained Delaunay triangulation
     layered,   ///< the grid of rays and layers, each cell cut into two triangles
@@ -166,8 +166,8 @@ enum class RayPlace : std::uint8_t {
     wake_end,  ///< at the end of a wake, where no layers are left
 };
 
-/// How the edges of the fronts are divided, which makes them outer borders. Borders are frozen afterwards, so they must
-/// suit refinement (docs/decisions/0003).
+/// How the edges of the fronts are divided, which makes them outer borders. Borders are frozen afterwards: refinement
+/// does not split their edges, so these must be short and even enough for it.
 struct BorderOptions {
     /// Largest ratio of the lengths of adjacent edges; 1.4 serves angle bounds up to 30 degrees. Where it is below 2,
     /// halving an edge often forces its neighbours to be halved, and so on all along the border. The ratio is exceeded

@@ -17,7 +17,7 @@ struct PageText {
 
 /// Returns a page with an interactive view of the mesh, in a browser with WebGL 2: zoom from the far field to the first
 /// cell, colours, numbers of cells and wall vertices, histograms. Vertices and cells keep their numbers; coordinates are
-/// rounded to less than 2^-16 of the smallest height of the cells beside (docs/decisions/0043). The page takes at most
+/// rounded to less than 2^-16 of the smallest height of the cells beside. The page takes at most
 /// 12 bytes a triangle beyond the first 150 kilobytes. Precondition: all indices are in range, and coordinates are
 /// finite. Throws MeshError from 2^32 directed edges on.
 LAMINA_EXPORT std::string mesh_page(const Mesh& mesh, const PageText& text);

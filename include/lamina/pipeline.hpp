@@ -73,7 +73,7 @@ LAMINA_EXPORT const OptionTable<CaseOptions>& case_option_table();
 LAMINA_EXPORT void validate(const CaseOptions& options);
 
 /// Returns the options of a mesh that is similar to that of these options, with all lengths divided by `ratio`; below 1
-/// the mesh is coarser. Members of a family for a study of convergence are made so (docs/decisions/0039).
+/// the mesh is coarser. Members of a family for a study of convergence are made so.
 ///
 /// Edges of walls, sizes, angles between rays, gradations and the changes of the flow from vertex to vertex are divided
 /// by the ratio, and ratios of lengths r become r^(1/ratio). Layers keep their total height and their law: a given

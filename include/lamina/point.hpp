@@ -44,7 +44,7 @@ constexpr Point perpendicular(Point a) { return {-a.y, a.x}; }
 inline Point unit(Point a) { return (1.0 / length(a)) * a; }
 
 /// Returns whether a comes before b in the order by x and then by y. Every tie rule of the program goes back to this
-/// total order (docs/decisions/0001).
+/// total order.
 constexpr bool lexicographically_less(Point a, Point b) { return a.x < b.x || (a.x == b.x && a.y < b.y); }
 
 /// An axis-parallel box that includes its border. It is empty, as a new box is, where lower exceeds upper.

@@ -9,8 +9,8 @@
 namespace lamina {
 
 /// The predicates are exact for coordinates that are 0 or whose magnitude lies in [min_exact_coordinate,
-/// max_exact_coordinate]: no product of four differences of them over- or underflows (docs/decisions/0005). Every entry
-/// into the library refuses other coordinates by in_exact_range().
+/// max_exact_coordinate]: no product of four differences of them over- or underflows. Every entry into the library
+/// refuses other coordinates by in_exact_range().
 inline constexpr double min_exact_coordinate = 1e-60;
 /// Upper end of the range that begins at min_exact_coordinate.
 inline constexpr double max_exact_coordinate = 1e60;
@@ -33,10 +33,10 @@ LAMINA_EXPORT double orient2d(Point a, Point b, Point c);
 /// counter-clockwise; the opposite where they run clockwise. Only the sign is exact.
 LAMINA_EXPORT double incircle(Point a, Point b, Point c, Point d);
 
-/// Returns incircle(), with ties broken by the one tie rule of the program (docs/decisions/0001): each point is lifted
-/// to the paraboloid x^2 + y^2 and its height lowered by an infinitesimal; that of the lexicographically smallest point
-/// outweighs all others. The result is never 0 for four distinct points of which a, b, c are not collinear. Every empty
-/// cocircular polygon is thus fanned from its smallest vertex, whatever function asks and in whatever order.
+/// Returns incircle(), with ties broken by the one tie rule of the program: each point is lifted to the paraboloid
+/// x^2 + y^2 and its height lowered by an infinitesimal; that of the lexicographically smallest point outweighs all
+/// others. The result is never 0 for four distinct points of which a, b, c are not collinear. Every empty cocircular
+/// polygon is thus fanned from its smallest vertex, whatever function asks and in whatever order.
 LAMINA_EXPORT double incircle_perturbed(Point a, Point b, Point c, Point d);
 
 }  // namespace lamina

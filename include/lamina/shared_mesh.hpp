@@ -1,4 +1,4 @@
-// Meshes that several processes make together, and that none of them holds as a whole (docs/decisions/0047).
+// Meshes that several processes make together, and that none of them holds as a whole.
 #pragma once
 
 #include <filesystem>

@@ -21,8 +21,7 @@ namespace lamina {
 struct WorkLimits;  // limits.hpp
 
 /// Frozen edges (separators, outer borders of layers) are at most this share of h long. Refinement makes edges of h on
-/// average, and no vertex that it has to place encroaches upon a frozen edge of up to 1.06 h where h is constant
-/// (docs/decisions/0003).
+/// average, and no vertex that it has to place encroaches upon a frozen edge of up to 1.06 h where h is constant.
 inline constexpr double frozen_share = 1.0;
 
 /// The area of an equilateral triangle divided by its squared edge: sqrt(3) / 4.
@@ -80,7 +79,7 @@ struct SizeFieldOptions {
 
 /// The target edge length h(x). It is evaluated in tens of nanoseconds from a graded quadtree, whatever the number of
 /// sources, and is within `relative_error` of the exact minimum over the sources. Copies share the tree.
-/// Source: P.-O. Persson, Engineering with Computers 22 (2006); docs/decisions/0016.
+/// Source: P.-O. Persson, Engineering with Computers 22 (2006).
 class LAMINA_EXPORT SizeField {
 public:
     /// Makes a field of the same size everywhere. Throws OptionError unless the size is positive and finite.

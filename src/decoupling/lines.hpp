@@ -1,5 +1,5 @@
 // The lines along which subdomains meet. Their vertices have successive ids, so that a line and how many vertices it
-// has tell all ids on it; where they lie is found out by who needs it (docs/decisions/0056).
+// has tell all ids on it; where they lie is found out by who needs it.
 #pragma once
 
 #include <array>

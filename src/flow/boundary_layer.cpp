@@ -101,7 +101,7 @@ double laminar_shape(double lambda) {
 }
 
 /// Returns the thickness over the momentum thickness. Thwaites gives none; this is a fit to the profiles of Falkner and
-/// Skan, where it is within 2 %, or 8 % at separation (docs/decisions/0034).
+/// Skan, where it is within 2 %, or 8 % at separation.
 double laminar_thickness(double lambda) {
     const double x = std::min(lambda, 0.11);
     return 7.39 + x * (3.0 + 65.0 * x);

@@ -189,8 +189,8 @@ double largest_on_walls(const ElementFlow& element, double FlowPoint::*number) {
 }
 
 double largest_skin_friction(const ElementFlow& element) {
-    // Solutions have 3.8 to 3.9 times the friction of the boundary layer there (docs/decisions/0036). With less y+ is 1.1
-    // times the request at one edge, and layers are not finer than that needs.
+    // Solutions on CRM-HL have 3.8 to 3.9 times the friction of the boundary layer there. With less y+ is 1.1 times the
+    // request at one edge, and layers are not finer than that needs (docs/decisions/0036).
     constexpr double rise_at_corners = 3.2;
     const FlowPoint &above = element.upper.back(), &below = element.lower.back();
     const double at_corners = above.at == below.at ? 0 : std::max(above.skin_friction, below.skin_friction);

@@ -1,6 +1,6 @@
 // The numbers that shape the layer, in one place. Each moves something on the cases of `./dev ablate` or is a promise of
-// layers.hpp; those that moved nothing have been taken away (docs/decisions/0075). Angles are in degrees where names say so, lengths
-// and widths are shares of others. Tolerances of rounding and numbers of steps stand where they are used.
+// layers.hpp (docs/decisions/0075). Angles are in degrees where names say so, lengths and widths are shares of others.
+// Tolerances of rounding and numbers of steps stand where they are used.
 #pragma once
 
 #include <numbers>

@@ -149,7 +149,7 @@ std::vector<std::size_t> shorten_rays(std::span<const Circle> places, Rays& rays
 std::vector<std::vector<Point>> fronts(const Rays& rays);
 
 /// Returns the spacings of resampled walls with which their fronts would need no division by these options, wherever
-/// they need one: limits for the stage "prepare" (docs/decisions/0017). Throws OptionError for options out of range.
+/// they need one: limits for the stage "prepare". Throws OptionError for options out of range.
 std::vector<WallSpacing> wall_spacings(const Rays& rays, const BorderOptions& options);
 
 /// Places the points on the rays and divides the fronts, which become outer borders that can be frozen. Throws

@@ -5,7 +5,7 @@
 
 namespace lamina::pipeline {
 
-/// The cost of stream_mesh() (docs/decisions/0045).
+/// The cost of stream_mesh(): what remains in memory are the borders of all pieces (docs/decisions/0045).
 inline constexpr WorkCost stream_cost{40e6, 2.5, 0.35e-6};
 
 /// Returns the cost of share_mesh() for each of this many processes, which keep their pieces in memory or not.

@@ -44,7 +44,7 @@ RayPlan plan_rays(Geometry geometry, const ReferenceConditions& conditions, cons
                   const LayerGrowth& growth, std::vector<ElementWake> wakes = {});
 
 /// Prepares the walls anew, from the given geometry, with a finer spacing where the layer's border would be divided,
-/// and makes rays on them. Rows of cells would end in fans below division points (docs/decisions/0017).
+/// and makes rays on them. Rows of cells would end in fans below division points (docs/decisions/0009).
 void refine_walls_below_borders(const Geometry& given, const CaseOptions& options, SpacingLimits limits,
                                 const LayerGrowth& growth, RayPlan& plan);
 

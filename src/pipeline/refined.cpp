@@ -1,4 +1,4 @@
-// Options of similar meshes: all lengths divided by one ratio (docs/decisions/0039).
+// Options of similar meshes: all lengths divided by one ratio (docs/decisions/0038).
 #include <lamina/pipeline.hpp>
 
 #include <algorithm>

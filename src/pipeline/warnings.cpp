@@ -1,5 +1,5 @@
-// The bounds below separate good meshes from others: docs/decisions/0020 has the measurements. Places are searched only
-// where there is something to warn of.
+// The bounds below separate good meshes from others, as measured on a collection of sections (docs/decisions/0020).
+// Places are searched only where there is something to warn of.
 #include "pipeline/warnings.hpp"
 
 #include <algorithm>

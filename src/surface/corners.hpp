@@ -24,7 +24,7 @@ std::vector<double> turning_angles(std::span<const Point> outline);
 /// parabola by 0.3 times the vertex's angle to 180 degrees. A neighbour therefore counts as straight where it turns by
 /// less than 0.2 times the vertex's angle, or by less than 0.2 times the rest to 180 degrees if that is less. Beyond
 /// 125 degrees a vertex is a corner, unless its neighbours turn on by 5 to 60 degrees and the thickness grows like that
-/// of a parabola: as the distance to a power of 0.35 to 0.7.
+/// of a parabola: as the distance to a power of 0.35 to 0.75.
 ///
 /// Corners are also all vertices of a coarse polygon, such as a box, a hexagon or a snowflake; those between two sides that are
 /// longer than 0.35 of the outline, where it turns by more than one degree; and the first and the last vertex, if they

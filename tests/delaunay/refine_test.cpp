@@ -165,7 +165,7 @@ double share_below(const Border& border, const Refinement& r, double degrees) {
 }
 
 TEST(Refine, GradedTrianglesAreNearlyEquilateral) {
-    // The aims stand in docs/decisions/0031; a frontal mesher reaches mean angles of 56.9, 55.5 and 54.1 degrees.
+    // Another frontal mesher, JIGSAW, reaches mean angles of 56.9, 55.5 and 54.1 degrees.
     struct Aim {
         double gradation, mean_angle, smallest_angle;
     };
@@ -214,7 +214,8 @@ double mean_of_mean_ratios(const Border& border, const Refinement& r) {
 }
 
 TEST(Refine, RegularizedTrianglesAreTheMostRegular) {
-    // No mesh could have a mean ratio of much more than 1 - gradation^2 / 6 (docs/decisions/0031).
+    // No mesh could have a mean ratio of much more than 1 - gradation^2 / 6, that of a regular lattice under the
+    // conformal map exp(gradation w).
     struct Case {
         double gradation, min_size, max_size;
     };

@@ -3,8 +3,8 @@
 
     tests/golden/check_golden.py PROGRAM [--threads 1,2] [--update]
 
-A difference means that a mesh changed. Where that was meant, --update writes the new hashes, and a decision record says
-why they changed. The exit status is 1 where a hash differs or a run failed.
+A difference means that a mesh changed. Where that was meant, --update writes the new hashes, and the commit says why
+they changed. The exit status is 1 where a hash differs or a run failed.
 """
 
 import argparse

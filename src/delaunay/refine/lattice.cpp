@@ -10,7 +10,7 @@
 //              /_\_/_\_/_\_/_\_/_\_/_\_    patch of level l + 1
 //
 // Source: lattice interiors with refined seams, as in W. Bossen, P. Heckbert, A pliant method for anisotropic mesh
-// generation, 5th Int. Meshing Roundtable (1996); figures in docs/decisions/0002.
+// generation, 5th Int. Meshing Roundtable (1996).
 #include "delaunay/refine/lattice.hpp"
 
 #include <algorithm>

@@ -7,7 +7,7 @@ namespace lamina::delaunay {
 
 /// Lattice edges have at most the first share of h, so that their mean is h where sizes pass through the levels. Those
 /// that serve the commonest size have the second one: a little more than 1, which lets refinement close the seams
-/// beside them without too many short edges (docs/decisions/0002).
+/// beside them without too many short edges.
 inline constexpr double largest_lattice_share = 1.07, commonest_lattice_share = 1.02;
 /// The edges of lattices have this share of the longest edge that a bound of the area admits, where the user gives one
 /// (RefineOptions::max_area_ratio). A share near 1 makes few triangles; the rest lets refinement close the seams.

@@ -31,7 +31,7 @@ namespace {
 /// Attempts with lattices before the domain is refined without.
 constexpr int max_lattice_attempts = 4;
 /// Ways that are tried besides the first one where few triangles result, because their number is a matter of chance
-/// then. What each of them adds to those before it is in docs/decisions/0022.
+/// then (docs/decisions/0022). The first three help larger meshes most.
 constexpr std::array other_ways{
     RefinementWay{.part_share = 0.97},
     RefinementWay{.off_centre_share = 0.85},

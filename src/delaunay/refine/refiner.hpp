@@ -1,7 +1,7 @@
 // Frontal Delaunay refinement with a size field and a minimum angle: the steps that refinement with frozen borders and
 // refinement with borders that may be split share. Triangles that are too large are mended first, row by row from the
 // border inwards, then narrow ones, each by a new vertex; at the end vertices move to where triangles are better.
-// docs/decisions/0002 and 0031 explain the order of work and give figures.
+// docs/decisions/0002 explains the order of work.
 //
 // Refinement ends: a point placed for an angle is farther from every vertex than the shortest edge of the triangle it
 // mends (for bounds up to 30 degrees); and points placed for size keep a distance of a share of h from every vertex.

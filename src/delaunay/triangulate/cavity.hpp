@@ -11,7 +11,7 @@
 //     o----o----o               o----o----o
 //
 // The triangles of a cavity form a tree in the dual graph. A depth-first search therefore needs no visited marks and
-// meets the boundary edges in counter-clockwise order (docs/decisions/0002).
+// meets the boundary edges in counter-clockwise order.
 //
 // Nothing is written before the whole cavity is known, so giving up costs nothing. Afterwards the indices of triangles
 // of the cavity, and links into it, are invalid; all others stay valid.

@@ -107,10 +107,6 @@ double StripCutter::burden_via_lower(std::size_t i, std::size_t j) const {
 //     | / \ |            | /   |
 //     |/   \|            |/    |
 //     d-----a            d-----a
-//
-// At a step of the front, a side of the cell has two edges. By its angles the best triangle on the lower one may have
-// its middle far below that of the edge, as the long cell beyond the side has, which makes a skewed face. Then one
-// diagonal is turned (docs/decisions/0060).
 
 namespace {
 

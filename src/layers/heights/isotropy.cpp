@@ -1,5 +1,5 @@
 // The distance between rays decides where a layer is as high as wide. It is measured where the layer lies, as rays
-// spread round convex walls (docs/decisions/0010):
+// spread round convex walls:
 //
 //      \   s(H)  |  s(H)  /
 //       o--------o-------o        the layer at height H

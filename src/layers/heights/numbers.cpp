@@ -19,7 +19,7 @@
 //      / / / /_            / / / /
 //
 // A change costs as much, too, where rows turn at one of its rays so that the middles of the cells on both sides lie far
-// below the middle of the face between them (docs/decisions/0060):
+// below the middle of the face between them:
 //
 //        __|__
 //       /  |  \      rows that fall away from

@@ -10,7 +10,7 @@
 //
 // The wake is no wall: its vertices are inner vertices of the layer, one for both sides. Behind a blunt base the sides
 // run straight from both corners to a point on the line of the wake, and a core fills the space between them
-// (wake_core.cpp; docs/decisions/0037).
+// (docs/decisions/0037).
 #include "layers/wake/wake_outline.hpp"
 
 #include <algorithm>
@@ -335,7 +335,7 @@ bool shorten_bare_wakes(const RaySet& set, std::span<const std::uint32_t> counts
 //    wall -----------l'
 //
 // Ends on the edges between stations would make first cells beside the wake, a millionth of a chord high, meet them in
-// angles of nearly 180 degrees (docs/decisions/0037).
+// angles of nearly 180 degrees.
 
 namespace {
 
