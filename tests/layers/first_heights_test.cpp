@@ -163,7 +163,7 @@ TEST(FirstHeights, AreLowerInSlotsWithoutRoom) {
                 const bool is_below_teeth = at.y < -0.1;
                 EXPECT_TRUE(!is_below_teeth || opening == 1) << at.x << ", " << at.y;
             }
-            EXPECT_GT(lower, 15u);
+            EXPECT_GT(lower, 10u);
         }
 }
 

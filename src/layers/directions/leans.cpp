@@ -92,10 +92,11 @@ void lean_rays(std::span<const RayVertex> outline, std::span<const double> heigh
     const double wanted = wanted_width(kind, growth, angle),
                  fan_angle = std::min(core::radians(options.max_ray_angle_deg), angle);
     // On walls of twice as many edges and rays at half the angle a lack is spread over twice as many columns.
-    const double stiffness = (kind == OutlineKind::jagged ? stiffness_on_jagged : 1) * fan_angle * fan_angle;
+    const double weight = kind == OutlineKind::jagged ? 1 : weight_on_smooth,
+                 stiffness = lean_stiffness * fan_angle * fan_angle;
     const Leaners leaners =
         leaners_of(outline, measured_heights(heights, kind, growth), wanted, growth.first_height, vertices);
-    const ChainLeans solution = minimise_leans(leaners.lacks, leaners.bounds, stiffness);
+    const ChainLeans solution = minimise_leans(leaners.lacks, leaners.bounds, weight, stiffness);
     for (std::size_t k = 0; k < leaners.leans.size(); ++k)
         *leaners.leans[k] = core::rounded_to_multiple(solution.leans[k], lean_step);
     for (WallVertex& vertex : vertices)
