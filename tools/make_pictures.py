@@ -1,17 +1,16 @@
 #!/usr/bin/env python3
-"""Makes the pictures of the documentation, and docs/pictures.md, the list of them: ./dev pictures.
+"""Makes the pictures of the documentation: ./dev pictures.
 
-usage: make_pictures.py PROGRAM [--collection FOLDER] [--only NAME...] [--list]
+usage: make_pictures.py PROGRAM [--collection FOLDER] [--only NAME...]
 
-tools/pictures.toml says what each picture is. --list writes the list alone. Needs matplotlib, pngquant, which makes
-pictures a fifth as large, and Graphviz.
+tools/pictures.toml says what each picture is. Needs matplotlib, pngquant, which makes pictures a fifth as large, and
+Graphviz.
 """
 
 import argparse
 import concurrent.futures
 import os
 import pathlib
-import re
 import shutil
 import subprocess
 import sys
@@ -149,37 +148,13 @@ class Maker:
             print(f"docs/images/{name} is left: {file} is not there; {command} makes it", flush=True)
 
 
-def shown_in(file):
-    """Returns links to the pages that show a picture."""
-    pages = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
-    found = [page for page in pages if page.name != "pictures.md"
-             and re.search(rf"images/{re.escape(file)}\b", page.read_text())]
-    return ", ".join(f"[{page.relative_to(ROOT)}]({os.path.relpath(page, ROOT / 'docs')})" for page in found)
-
-
-def list_of_pictures(table):
-    lines = [
-        "# The pictures of these pages", "",
-        "`tools/make_pictures.py` wrote this page; `tools/pictures.toml` is the table behind it. `./dev pictures` makes the",
-        "pictures with the program as it is. COLLECTION is a folder of airfoil files, which `./dev pictures FOLDER` names;",
-        "without it, pictures that need it stay as they are.", "",
-        "| picture | shown in | command |", "|---|---|---|"]
-    rows = {}
-    for name, (mesh, options) in table["pictures"].items():
-        rows[f"{name}.png"] = f"`lamina mesh {table['meshes'][mesh]}`, `lamina plot {options}`"
-    for name, (mesh, *windows) in table["zooms"].items():
-        rows[f"{name}.png"] = f"`lamina mesh {table['meshes'][mesh]}`, {len(windows)} windows with `--color size`"
-    for name, sheet in table["sheets"].items():
-        rows[f"{name}.png"] = f"the places `{sheet}` of `tools/places.txt`"
-    rows |= {name: f"`{command.replace('|', chr(92) + '|')}`" for name, command in table["drawings"].items()}
-    rows |= {name: f"`{command}`" + (f" leaves `{file}`" if file else "")
-             for name, (command, file) in table["taken"].items()}
-    for file, command in sorted(rows.items()):
-        lines.append(f"| `{file}` | {shown_in(file)} | {command} |")
-    unlisted = sorted(path.name for path in IMAGES.iterdir() if path.name not in rows and path.suffix != ".dot")
+def require_rows(table):
+    """Ends the program where a picture has no row in the table."""
+    files = {f"{name}.png" for kind in ("pictures", "zooms", "sheets") for name in table[kind]}
+    files |= {*table["drawings"], *table["taken"]}
+    unlisted = sorted(path.name for path in IMAGES.iterdir() if path.name not in files and path.suffix != ".dot")
     if unlisted:
         sys.exit(f"tools/pictures.toml lacks {', '.join(unlisted)}")
-    (ROOT / "docs/pictures.md").write_text("\n".join(lines) + "\n")
 
 
 def main():
@@ -187,21 +162,19 @@ def main():
     parser.add_argument("program", type=pathlib.Path)
     parser.add_argument("--collection", type=pathlib.Path)
     parser.add_argument("--only", nargs="+", default=[])
-    parser.add_argument("--list", action="store_true")
     arguments = parser.parse_args()
     table = tomllib.loads((ROOT / "tools/pictures.toml").read_text())
-    if not arguments.list:
-        if not shutil.which("pngquant"):
-            sys.exit("make_pictures.py: pngquant is missing")
-        with tempfile.TemporaryDirectory() as scratch:
-            maker = Maker(arguments.program.resolve(), table,
-                          arguments.collection and arguments.collection.resolve(), pathlib.Path(scratch))
-            for kind, make in (("pictures", maker.picture), ("zooms", maker.zoom), ("sheets", maker.sheet),
-                               ("drawings", maker.drawing), ("taken", maker.taken)):
-                for name in table[kind]:
-                    if not arguments.only or name.partition(".")[0] in arguments.only:
-                        make(name)
-    list_of_pictures(table)
+    require_rows(table)
+    if not shutil.which("pngquant"):
+        sys.exit("make_pictures.py: pngquant is missing")
+    with tempfile.TemporaryDirectory() as scratch:
+        maker = Maker(arguments.program.resolve(), table,
+                      arguments.collection and arguments.collection.resolve(), pathlib.Path(scratch))
+        for kind, make in (("pictures", maker.picture), ("zooms", maker.zoom), ("sheets", maker.sheet),
+                           ("drawings", maker.drawing), ("taken", maker.taken)):
+            for name in table[kind]:
+                if not arguments.only or name.partition(".")[0] in arguments.only:
+                    make(name)
 
 
 if __name__ == "__main__":
