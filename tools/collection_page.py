@@ -84,41 +84,57 @@ def badness(result):
             figures.min_angle, result.names)
 
 
-def row(result):
+# What layers are judged by. Those of the area ratio judge layers that end where cells are as high as wide.
+AREA_TARGETS = (lambda f: f.transition[0] >= 0.5, lambda f: 0.8 <= f.transition[1] <= 1.25,
+                lambda f: f.transition[2] <= 2)
+LAYER_TARGETS = (lambda f: f.max_angle <= 150, lambda f: f.first_off <= 0.001 * f.first_cells)
+
+
+def meets_all(figures):
+    """Returns whether a layer meets all targets that it is judged by."""
+    return all(meets(figures) for meets in (AREA_TARGETS if figures.transition else ()) + LAYER_TARGETS)
+
+
+def layer_note(figures):
+    """Returns what a layer that misses a target has, for the notes of its case; an empty text for others."""
+    if not figures or meets_all(figures):
+        return ""
+    ratio = f", area ratio {' / '.join(f'{value:.2f}' for value in figures.transition)}" if figures.transition else ""
+    return (f"layer: largest angle {figures.max_angle:.1f}{ratio}, {figures.first_off} of {figures.first_cells} first "
+            "heights off")
+
+
+def notes(result, judgements):
+    """Returns what is to be said of a case: reason and judgement where there is no mesh, else what its mesh lacks."""
+    figures = result.figures
+    if figures is None:
+        entry = judgement_of(result, judgements)
+        verdict = f"{entry['judgement']}: {escaped(entry['reason'])}" if entry else "**not judged**"
+        return f"{escaped(result.reason)}<br>{verdict}"
+    counts = ((figures.first_lost, f"{figures.first_lost} of {figures.wall_edges} first heights lost"),
+              (figures.exempt, f"{figures.exempt} angles exempt"),
+              (figures.below_bound, f"**{figures.below_bound} angles below the bound**"),
+              (figures.refused, f"{figures.refused} points refused"),
+              (figures.oversized, f"{figures.oversized} triangles too large"))
+    warnings = ", ".join(f"`{code}`" + (f" ({n})" if n > 1 else "")
+                         for code, n in sorted(Counter(figures.warnings).items()))
+    return "; ".join(filter(None, [warnings, *(text for number, text in counts if number), layer_note(figures.layer)]))
+
+
+def row(result, judgements):
     """Returns the row of the table for one case."""
     names = file_names(result) + (" *" if result.own_options else "")
     figures = result.figures
-    if figures is None:
-        outcome = result.outcome if result.outcome == "refused" else f"**{result.outcome}**"
-        return f"| {names} | {outcome} | | | | | | | | {result.seconds:.1f} |"
-    first = f"{figures.first_lost} of {figures.wall_edges}" if figures.first_lost else "all kept"
-    warnings = ", ".join(f"{code} ({n})" if n > 1 else code for code, n in sorted(Counter(figures.warnings).items()))
-    below = f", **{figures.below_bound} below**" if figures.below_bound else ""
-    exempt = f", {figures.exempt} exempt" if figures.exempt else ""
-    return (f"| {names} | valid | {figures.triangles} | {pair(figures.rays)} | {pair(figures.cells)} | {first} "
-            f"| {warnings.replace('_', ' ')} | {figures.min_angle:.1f}{exempt}{below} "
-            f"| {figures.refused} / {figures.oversized} | {result.seconds:.1f} |")
-
-
-COLUMNS = ["| files | outcome | triangles | rays | cells | first lost | warnings | angle | unmet | time |",
-           "| --- | --- | ---: | ---: | ---: | ---: | --- | ---: | ---: | ---: |"]
-
-
-def legend(settings):
-    """Returns what the columns of the large table mean."""
-    reference = "reference" if settings.own else "../docs/reference"
-    return [
-        "- *rays*: per cent of the rays that carry all requested layers; first of all rays, then of those in the open,",
-        f"  where nothing lies in front of the wall ([report]({reference}/report.md#the-report))",
-        "- *cells*: per cent of the requested layer cells that were made; all, and in the open",
-        "- *first lost*: wall edges without a cell of the first height, of all wall edges",
-        f"- *warnings*: [codes]({reference}/checks.md#warnings), with their number where it is above one",
-        "- *angle*: smallest angle of the isotropic region in degrees, by `lamina check` on the file; *exempt*:",
-        "  triangles below the bound that a sharp corner excuses; *below*: those that nothing excuses",
-        "- *unmet*: points refused / triangles larger than the size field asks for",
-        "- *time*: seconds of `lamina mesh` on one thread, with other cases at the same time",
-        "- a star marks cases that are meshed with options of their own, from the `case.json` beside them",
-    ]
+    cells = ["", "", "", ""]
+    if figures:
+        cells = [f"{figures.triangles}", pair(figures.rays), pair(figures.cells), f"{figures.min_angle:.1f}"]
+    outcome = f"**{result.outcome}**" if result.outcome == "failed" else result.outcome
+    mended = [entry for entry in judgements
+              if entry["judgement"] == "mended" and names_end_with(result.names, entry["files"])]
+    said_of_it = [notes(result, judgements)]
+    if mended:
+        said_of_it.append(f"{'once' if figures else '**again**'} refused: {escaped(mended[0]['reason'])}")
+    return f"| {names} | {outcome} | {' | '.join(cells)} | {'<br>'.join(filter(None, said_of_it))} |"
 
 
 def said(command):
@@ -146,135 +162,56 @@ def head(left_out, settings):
     skipped = ", ".join(f"{n} of `{ending}`" for ending, n in sorted(left_out.items()))
     lines = [f"# Every section of the {'collection' if settings.own else 'folder'}, meshed", "", *wrapped(text)]
     if skipped:
-        lines += ["", *wrapped(f"Files that are no coordinates by their ending were left out: {skipped}.")]
+        lines += ["", *wrapped(f"Files left out by their ending: {skipped}.")]
     return lines
 
 
 def totals(results, judgements):
-    """Returns the counts of outcomes, judgements and warnings."""
-    valid = [result.figures for result in results if result.figures]
+    """Returns the lines that count outcomes, judgements and what meshes lack."""
     judged = Counter((judgement_of(r, judgements) or {"judgement": "not judged"})["judgement"]
                      for r in results if r.outcome == "refused")
-    lines = ["", "## Totals", "", f"{summary(results)}.", ""]
-    lines += ["| of the refusals | cases |", "| --- | ---: |"]
-    lines += [f"| {name} | {n} |" for name, n in sorted(judged.items())] or ["| none | 0 |"]
-    cases = Counter(code for figures in valid for code in set(figures.warnings))
-    number = Counter(code for figures in valid for code in figures.warnings)
-    lines += ["", "| warning | cases | warnings |", "| --- | ---: | ---: |"]
-    lines += [f"| no warning | {sum(not f.warnings for f in valid)} | 0 |"]
-    lines += [f"| `{code}` | {n} | {number[code]} |" for code, n in sorted(cases.items(), key=lambda e: (-e[1], e[0]))]
-    lines += ["", "| of the valid meshes | cases | sum |", "| --- | ---: | ---: |",
-              f"| triangles | {len(valid)} | {sum(f.triangles for f in valid)} |"]
-    for title, value in (("first heights lost (wall edges)", lambda f: f.first_lost),
-                         ("angles below the bound, not exempt", lambda f: f.below_bound),
-                         ("angles below the bound, exempt", lambda f: f.exempt),
-                         ("points refused", lambda f: f.refused), ("triangles too large", lambda f: f.oversized)):
-        lines.append(f"| {title} | {sum(value(f) > 0 for f in valid)} | {sum(map(value, valid))} |")
-    complete = sum(f.rays[1] == 100 for f in valid)
-    lines.append(f"| every ray in the open carries all layers | {complete} | |")
-    return lines
+    text = f"{summary(results)}."
+    if judged:
+        text += f" Of the refusals {', '.join(f'{n} are {name}' for name, n in sorted(judged.items()))}."
+    valid = [result.figures for result in results if result.figures]
+    if not valid:
+        return ["", *wrapped(text)]
+    text += (f" The meshes have {sum(f.triangles for f in valid):,} triangles, {sum(f.first_lost for f in valid)} wall "
+             f"edges without a first height, {sum(f.below_bound for f in valid)} angles below the bound that no sharp "
+             f"corner excuses, and {sum(f.oversized for f in valid)} triangles larger than asked. "
+             f"{sum(not f.warnings for f in valid)} have no warning. In {sum(f.rays[1] == 100 for f in valid)} every "
+             "ray in the open carries all layers.")
+    return ["", *wrapped(text), *layer_totals([figures.layer for figures in valid if figures.layer])]
 
 
-# What layers are judged by: a title, and what says whether a layer meets it. Those of the area ratio judge layers that end
-# where cells are as high as wide.
-AREA_TARGETS = (
-    ("area ratio, 1st percentile at least 0.5", lambda f: f.transition[0] >= 0.5),
-    ("area ratio, median 0.8 to 1.25", lambda f: 0.8 <= f.transition[1] <= 1.25),
-    ("area ratio, 99th percentile at most 2", lambda f: f.transition[2] <= 2),
-)
-LAYER_TARGETS = (
-    ("no angle above 150 degrees", lambda f: f.max_angle <= 150),
-    ("99.9 % of first heights within 1 %", lambda f: f.first_off <= 0.001 * f.first_cells),
-)
-
-
-def targets_of(figures):
-    """Returns the targets that a layer is judged by."""
-    return AREA_TARGETS + LAYER_TARGETS if figures.transition else LAYER_TARGETS
-
-
-def meets_all(figures):
-    """Returns whether a layer meets all targets that it is judged by."""
-    return all(meets(figures) for _, meets in targets_of(figures))
-
-
-def layers(results):
-    """Returns the tables that say which layers meet their targets, and which do not, apart for single sections and for
-    configurations of several elements."""
-    judged = [result for result in results if result.figures and result.figures.layer]
+def layer_totals(judged):
+    """Returns the lines that say how many layers meet their targets, apart for single sections and several elements."""
     if not judged:
         return []
-    single = [r.figures.layer for r in judged if r.figures.layer.elements == 1]
-    several = [r.figures.layer for r in judged if r.figures.layer.elements > 1]
-    lines = ["", "## Layers", "", *wrapped(
-        "The area ratio is that between the last cell of a column and the triangle beyond it, where layers end as soon as "
-        "cells are as high as wide."), "",
-        "| target | single sections | several elements |", "| --- | ---: | ---: |"]
-
-    def add_row(title, count):
-        lines.append(f"| {title} | {count(single)} | {count(several)} |")
-
-    for title, meets in AREA_TARGETS + LAYER_TARGETS:
-        def met(group, title=title, meets=meets):
-            of = [f for f in group if title in dict(targets_of(f))]
-            return f"{sum(map(meets, of))} of {len(of)}"
-        add_row(title, met)
-    add_row("all of these", lambda group: f"{sum(map(meets_all, group))} of {len(group)}")
-    for title, part, whole in (("first heights more than 1 % off", "first_off", "first_cells"),
-                               ("wall vertices between edges above 1.25", "wall_uneven", "first_cells"),
-                               ("columns whose ends differ by a third of a cell", "ends_uneven", "columns")):
-        def total(group, part=part, whole=whole):
-            return f"{sum(getattr(f, part) for f in group)} of {sum(getattr(f, whole) for f in group)}"
-        add_row(title, total)
-    lines += ["", "| does not meet all | angle | area ratio | first heights off |", "| --- | ---: | ---: | ---: |"]
-    for result in judged:
-        figures = result.figures.layer
-        if not meets_all(figures):
-            ratio = " / ".join(f"{value:.2f}" for value in figures.transition)
-            star = " *" if result.own_options else ""
-            lines.append(f"| {file_names(result)}{star} | {figures.max_angle:.1f} | {ratio} "
-                         f"| {figures.first_off} of {figures.first_cells} |")
-    return lines
+    single = [figures for figures in judged if figures.elements == 1]
+    several = [figures for figures in judged if figures.elements > 1]
+    return ["", *wrapped(
+        f"The layers of {sum(map(meets_all, single))} of {len(single)} single sections and of "
+        f"{sum(map(meets_all, several))} of {len(several)} configurations meet all targets: no angle above 150 "
+        "degrees, 99.9 % of the first heights within 1 %, and, where layers end at isotropy, an area ratio to the "
+        "triangles beyond of at least 0.5 (1st percentile), 0.8 to 1.25 (median) and at most 2 (99th).")]
 
 
-def without_mesh(results, judgements):
-    """Returns the table of the cases that have no mesh, each with its reason and its judgement."""
-    rows = []
-    for result in results:
-        if result.figures:
-            continue
-        entry = judgement_of(result, judgements)
-        verdict = f"{entry['judgement']}: {escaped(entry['reason'])}" if entry else "**not judged**"
-        rows.append(f"| {file_names(result)} | {result.outcome} | {escaped(result.reason)} | {verdict} |")
-    if not rows:
-        return []
-    return ["", "## Cases without a mesh", "", "| files | outcome | what lamina says | judgement |",
-            "| --- | --- | --- | --- |", *rows]
+def legend(settings):
+    """Returns the lines that say what the columns of the table mean."""
+    reference = "reference" if settings.own else "../docs/reference"
+    return ["", *wrapped(
+        "The worst cases come first. *Rays*: per cent with all requested layers; *cells*: per cent of the requested "
+        f"ones; both also [in the open]({reference}/report.md#layer). *Angle*: the smallest of the isotropic region. "
+        f"Notes hold [warnings]({reference}/checks.md#warnings), why there is no mesh and whether that is right, and "
+        "the figures of layers that miss a target. A star marks options of the case's own.")]
 
 
-def mended(results, judgements):
-    """Returns the table of the cases that once were refused wrongly, and what becomes of them now."""
-    rows = []
-    for entry in (e for e in judgements if e["judgement"] == "mended"):
-        for result in (r for r in results if names_end_with(r.names, entry["files"])):
-            now = "valid" if result.figures else f"**{result.outcome}** again"
-            rows.append(f"| {file_names(result)} | {escaped(entry['reason'])} | {now} |")
-    if not rows:
-        return []
-    return ["", "## Refusals that were wrong, and are mended", "",
-            "| files | what was wrong, and what lamina does now | now |", "| --- | --- | --- |", *rows]
+COLUMNS = ["| files | outcome | triangles | rays | cells | angle | notes |",
+           "| --- | --- | ---: | ---: | ---: | ---: | --- |"]
 
 
 def page(results, left_out, judgements, settings):
-    """Returns the whole page."""
-    ordered = sorted(results, key=badness)
-    lines = head(left_out, settings)
-    lines += totals(results, judgements)
-    lines += layers(results)
-    lines += without_mesh(ordered, judgements)
-    lines += mended(results, judgements)
-    lines += ["", "## All cases, the worst first", "", *wrapped(
-        "Failed and refused cases come first; then meshes with more kinds of warnings, with a larger share of first "
-        "heights lost, with fewer cells in the open, with smaller angles."), "", *legend(settings), "", *COLUMNS,
-        *map(row, ordered)]
-    return "\n".join(lines) + "\n"
+    """Returns the whole page: some sentences, and a table with a row for each case."""
+    lines = [*head(left_out, settings), *totals(results, judgements), *legend(settings), "", *COLUMNS]
+    return "\n".join(lines + [row(result, judgements) for result in sorted(results, key=badness)]) + "\n"
