@@ -11,7 +11,8 @@ project = "lamina"
 author = "the lamina authors"
 extensions = ["myst_parser"]
 root_doc = "docs/README"
-include_patterns = ["docs/**", "README.md", "CONTRIBUTING.md", "CHANGELOG.md", "packaging/README.md", "web/README.md"]
+include_patterns = ["docs/**", "README.md", "CONTRIBUTING.md", "CHANGELOG.md", "packaging/README.md", "web/README.md",
+                    "src/**/README.md"]
 exclude_patterns = ["docs/site", "docs/Doxyfile"]
 source_suffix = {".md": "markdown"}
 nitpicky = True
