@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 namespace lamina::pipeline {
 
@@ -92,6 +93,23 @@ std::vector<FlowSpacing> smallest_spacings(std::span<const WallSpacing> spacings
             facts.push_back(
                 {geometry.elements[e].name, smallest[e]->spacing, midpoint(smallest[e]->a, smallest[e]->b)});
     return facts;
+}
+
+FlowGuidance guide_by_flow(const Geometry& geometry, const FlowConditions& flow_conditions, const LayerOptions& options,
+                           const ReferenceConditions& conditions, LayerGrowth& growth) {
+    FlowGuidance guidance{solve_flow(geometry, flow_conditions), {}, {}};
+    const Flow& flow = *guidance.flow;
+    if (!flow.estimated) guidance.wakes = wakes_of_flow(flow, growth.fineness);
+    if (options.enabled) {
+        if (const auto* y_plus = std::get_if<YPlus>(&options.first_height); y_plus && !flow.estimated)
+            growth.first_heights =
+                layer_growth(options, conditions, first_heights_of_flow(flow, y_plus->y_plus, *conditions.reynolds))
+                    .first_heights;
+        growth.least_heights = heights_of_flow(flow);
+        if (options.wake_layers) growth.wakes = wake_lines(flow, guidance.wakes, growth.least_heights);
+    }
+    if (!flow.estimated) guidance.spacings = spacings_of_flow(flow, growth);
+    return guidance;
 }
 
 }  // namespace lamina::pipeline

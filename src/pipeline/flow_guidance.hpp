@@ -1,6 +1,7 @@
 // The flow before the mesh decides first heights, the least thickness of layers, spacings of walls, and wakes.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -49,6 +50,17 @@ struct ElementWake {
 /// divided by a number of triangles. The streamline is that of a flow with less lift than potential flow has. A wake
 /// ends where it would enter another body. Sizes are divided by CaseOptions::fineness.
 std::vector<ElementWake> wakes_of_flow(const Flow& flow, double fineness = 1);
+
+/// The flow before the mesh, and what follows from it beside the growth of the layer.
+struct FlowGuidance {
+    std::optional<Flow> flow;        ///< none: nobody asked for it
+    std::vector<ElementWake> wakes;  ///< one per element or none
+    std::vector<WallSpacing> spacings;
+};
+
+/// Solves the flow round these bodies. Its first heights for the y+ of the options, its least heights and wakes go to `growth`.
+FlowGuidance guide_by_flow(const Geometry& geometry, const FlowConditions& flow_conditions, const LayerOptions& options,
+                           const ReferenceConditions& conditions, LayerGrowth& growth);
 
 /// Returns the lines for layers that go on along these wakes, with heights that hold half of the wake and the boundary
 /// layers of the trailing edges. `heights` are those of heights_of_flow().

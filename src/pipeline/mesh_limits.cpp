@@ -76,41 +76,38 @@ BorderForecast forecast_border(const Geometry& walls, std::size_t element, const
 
 }  // namespace
 
-void require_surface_points_within(const CaseOptions& options, std::size_t elements, const WorkCost& cost) {
-    if (!options.surface.points || options.surface.treatment == SurfaceTreatment::keep) return;
-    const auto edges = static_cast<double>(elements) * static_cast<double>(*options.surface.points);
-    RunEstimate estimate = estimate_run(edges, cost, thread_count(), seconds_per_border_edge * edges);
+void require_surface_points_within(const SurfaceOptions& options, std::size_t elements, const WorkBudget& budget) {
+    if (!options.points || options.treatment == SurfaceTreatment::keep) return;
+    const auto edges = static_cast<double>(elements) * static_cast<double>(*options.points);
+    RunEstimate estimate = estimate_run(edges, budget.cost, thread_count(), seconds_per_border_edge * edges);
     estimate.memory_bytes += bytes_per_border_edge * edges;
-    require_within(options.limits, estimate, "surface_points", std::to_string(*options.surface.points));
+    require_within(budget.limits, estimate, "surface_points", std::to_string(*options.points));
 }
 
-void require_options_within(const CaseOptions& options, const LayerGrowth& growth, const SizedBodies& bodies,
-                            const Box& domain, const WorkCost& cost) {
-    require_within_limits(options.sizing, bodies, domain, options.limits);
-    if (!options.layer.enabled || !growth.layers) return;
+void require_layers_within(const LayerGrowth& growth, const Geometry& walls, const WorkBudget& budget) {
+    if (!growth.layers) return;
     // Rays may be cut short.
     constexpr double certain = 2;
     double vertices = 0;
-    for (const auto& wall : bodies.walls) vertices += static_cast<double>(wall.size());
+    for (const Element& element : walls.elements) vertices += static_cast<double>(element.points.size());
     const double triangles = 2 * vertices * *growth.layers;
-    if (triangles > certain * allowed_triangles(options.limits, cost))
-        throw_limit_error(options.limits, estimate_run(triangles, cost, thread_count()), "layers",
+    if (triangles > certain * allowed_triangles(budget.limits, budget.cost))
+        throw_limit_error(budget.limits, estimate_run(triangles, budget.cost, thread_count()), "layers",
                           fmt::format("{} on {} wall vertices", *growth.layers, vertices));
 }
 
-void require_walls_within(const CaseOptions& options, const Geometry& prepared, const WorkCost& cost) {
+void require_walls_within(const SurfaceOptions& options, const Geometry& prepared, const WorkBudget& budget) {
     // A million rays of any number of layers, or edges above them, are far more than any section needs, and minutes of
     // work before the run could be estimated.
     constexpr double max_edges = 1e6;
     // Gaps are estimated within a factor of two.
     constexpr double certain = 0.5;
-    if (!options.layer.enabled) return;
     const surface::ClearanceSearch search(prepared);
     double vertices = 0;
     BorderForecast border;
     for (std::size_t e = 0; e < prepared.elements.size(); ++e) {
         vertices += static_cast<double>(prepared.elements[e].points.size());
-        const BorderForecast own = forecast_border(prepared, e, search, options.surface.min_spacing);
+        const BorderForecast own = forecast_border(prepared, e, search, options.min_spacing);
         border.edges += own.edges;
         if (own.narrowest >= border.narrowest) continue;
         border.narrowest = own.narrowest;
@@ -121,10 +118,10 @@ void require_walls_within(const CaseOptions& options, const Geometry& prepared, 
                                                       border.narrowest, border.narrowest_at.x, border.narrowest_at.y)
                                         : fmt::format("the walls' {} vertices", vertices);
     const char* const option = by_gaps ? "transform" : "surface";
-    RunEstimate estimate = estimate_run(2 * vertices + certain * border.edges, cost, thread_count(),
+    RunEstimate estimate = estimate_run(2 * vertices + certain * border.edges, budget.cost, thread_count(),
                                         seconds_per_border_edge * certain * border.edges);
     estimate.memory_bytes += bytes_per_border_edge * certain * border.edges;
-    require_within(options.limits, estimate, option, request);
+    require_within(budget.limits, estimate, option, request);
     if (const double edges = std::max(vertices, border.edges); edges > max_edges)
         throw LimitError(option,
                          fmt::format("{} asks for about {:.2g} million edges of the layer's border, and no more than a "
@@ -134,15 +131,14 @@ void require_walls_within(const CaseOptions& options, const Geometry& prepared, 
                          estimate);
 }
 
-RunEstimate estimate_within_limits(const CaseOptions& options, const Layer& layer, const SizeField& size,
-                                   const FarField& far_field, const WorkCost& cost) {
-    const RunEstimate estimate = estimate_mesh(options.refine, layer, size, far_field, cost);
+RunEstimate estimate_within_limits(const RefineOptions& refine, double gradation, const Layer& layer,
+                                   const SizeField& size, const FarField& far_field, const WorkBudget& budget) {
+    const RunEstimate estimate = estimate_mesh(refine, layer, size, far_field, budget.cost);
     if (const double in_layer = layer_triangles(layer); in_layer > 0.5 * estimate.triangles)
-        require_within(options.limits, estimate, "layers",
+        require_within(budget.limits, estimate, "layers",
                        fmt::format("the mesh, with {:.2g} triangles in the layer,", in_layer));
-    require_within(
-        options.limits, estimate, "gradation",
-        fmt::format("{}, with these sizes at walls and sources and this far field,", options.sizing.gradation));
+    require_within(budget.limits, estimate, "gradation",
+                   fmt::format("{}, with these sizes at walls and sources and this far field,", gradation));
     return estimate;
 }
 
@@ -150,16 +146,16 @@ double triangles_beyond_layer(const RunEstimate& estimate, const Layer& layer) {
     return estimate.triangles - layer_triangles(layer);
 }
 
-RefineOptions refine_options(const CaseOptions& options, double chord, const WorkCost& cost) {
-    RefineOptions refine = options.refine;
+RefineOptions refine_within(RefineOptions refine, double chord, const WorkBudget& budget) {
     refine.unit_length = chord;
-    refine.max_points = allowed_points(options.limits, cost, refine.max_points);
+    refine.max_points = allowed_points(budget.limits, budget.cost, refine.max_points);
     return refine;
 }
 
-void require_made_within(const WorkLimits& limits, std::size_t triangles, std::size_t quads, const WorkCost& cost) {
-    lamina::require_made_within(limits, static_cast<double>(triangles) + 2 * static_cast<double>(quads), cost,
-                                thread_count());
+void require_made_within(const WorkBudget& budget, const MeshCounts& counts) {
+    lamina::require_made_within(budget.limits,
+                                static_cast<double>(counts.triangles) + 2 * static_cast<double>(counts.quads),
+                                budget.cost, thread_count());
 }
 
 }  // namespace lamina::pipeline

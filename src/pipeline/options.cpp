@@ -7,15 +7,11 @@
 #include <lamina/option_builders.hpp>
 
 #include "core/reproducible_math.hpp"
-#include "pipeline/ray_plan.hpp"
+#include "pipeline/derived_options.hpp"
 
 namespace lamina::pipeline {
 
 namespace {
-
-/// The spacing along walls may grow by the gradation of the layer's border per unit of distance, and by this much in
-/// any case: slower gradations are for the outer region alone.
-constexpr double min_wall_gradation = 0.05;
 
 /// Makes the rows that belong to no stage, or that are stricter here than in their stage.
 OptionTable<CaseOptions> make_pipeline_rows() {
@@ -161,13 +157,7 @@ BorderOptions border_options(const CaseOptions& options, double chord, std::span
     // (docs/decisions/0003). A tenth more saves many splits, and has never made a vertex encroach.
     const double bound = core::radians(options.refine.min_angle_deg);
     border.max_ratio = 1.1 * std::sqrt(2.0) / (2 * core::sin_reproducible(bound));
-    // Edges may exceed the size of a source by up to a tenth (BorderOptions::sources), usually by less than this.
-    constexpr double division_tolerance = 1.08;
-    for (SizeSource source : sources) {
-        source.size *= frozen_share / division_tolerance;
-        border.sources.push_back(source);
-    }
-    return border;
+    return border_with_sources(std::move(border), sources);
 }
 
 SizedBodies sized_bodies(const Geometry& geometry, const ReferenceConditions& conditions) {
@@ -185,10 +175,21 @@ SizedBodies sized_bodies(const Geometry& geometry, const ReferenceConditions& co
 
 namespace lamina::pipeline {
 
-BorderOptions wall_border_options(const CaseOptions& options, double chord, std::span<const SizeSource> sources) {
-    BorderOptions border = border_options(options, chord, sources);
-    border.gradation = std::max(border.gradation, min_wall_gradation / options.fineness);
+BorderOptions border_with_sources(BorderOptions border, std::span<const SizeSource> sources) {
+    // Edges may exceed the size of a source by up to a tenth (BorderOptions::sources), usually by less than this.
+    constexpr double division_tolerance = 1.08;
+    for (SizeSource source : sources) {
+        source.size *= frozen_share / division_tolerance;
+        border.sources.push_back(source);
+    }
     return border;
+}
+
+SizingOptions sizes_in_tunnel(SizingOptions sizing, const FarFieldOptions& far_field, double chord, double fineness) {
+    constexpr double edges_across = 20;
+    if (far_field.tunnel && !sizing.far_size)
+        sizing.far_size = Length{in_units(*far_field.tunnel, chord) / (edges_across * fineness), LengthUnit::input};
+    return sizing;
 }
 
 }  // namespace lamina::pipeline

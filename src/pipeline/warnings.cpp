@@ -14,7 +14,7 @@
 #include "mesh/walls.hpp"
 #include "pipeline/area_jumps.hpp"
 #include "pipeline/assemble.hpp"
-#include "pipeline/ray_plan.hpp"
+#include "pipeline/fit_layer.hpp"
 #include "pipeline/reynolds_doubt.hpp"
 
 namespace lamina::pipeline {

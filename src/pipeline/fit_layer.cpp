@@ -1,0 +1,225 @@
+#include "pipeline/fit_layer.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <lamina/error.hpp>
+
+#include "decoupling/far_field.hpp"
+#include "layers/mechanisms.hpp"
+#include "layers/stages.hpp"
+#include "pipeline/derived_options.hpp"
+#include "pipeline/wake_sizes.hpp"
+
+namespace lamina::pipeline {
+
+namespace {
+
+/// Throws OptionError where the bodies fit into the far field, but not with their layers: the heights are wrong then,
+/// rather than the far field.
+void require_room_for_layers(const Geometry& geometry, const std::vector<std::vector<Point>>& fronts,
+                             const FarField& far_field, const LayerOptions& options, const LayerGrowth& growth) {
+    const Box bodies = bounding_box(geometry), domain = far_field.box();
+    Box with_layers = bodies;
+    for (const std::vector<Point>& front : fronts)
+        for (const Point p : front) with_layers.include(p);
+    if (!decoupling::leaves_room(far_field, bodies) || decoupling::leaves_room(far_field, with_layers)) return;
+    const bool by_y_plus = std::holds_alternative<YPlus>(options.first_height);
+    const double thickness = std::max({bodies.lower.x - with_layers.lower.x, bodies.lower.y - with_layers.lower.y,
+                                       with_layers.upper.x - bodies.upper.x, with_layers.upper.y - bodies.upper.y});
+    const double distance = std::min({bodies.lower.x - domain.lower.x, bodies.lower.y - domain.lower.y,
+                                      domain.upper.x - bodies.upper.x, domain.upper.y - bodies.upper.y});
+    throw OptionError(
+        by_y_plus ? "y_plus" : "first_height",
+        fmt::format("a first height of {:.4g}{} {} a layer that is {:.4g} thick, but the far field is "
+                    "only {:.4g} away: lower the first height, {}the growth ({:.4g}), or set a thickness",
+                    largest_first_height(growth), growth.layers ? fmt::format(" and {} layers", *growth.layers) : "",
+                    growth.layers ? "make" : "makes", thickness, distance,
+                    growth.layers ? "the number of layers or " : "", growth.growth));
+}
+
+/// Returns circles round the triangles with an angle below the bound that no sharp corner excuses. They hold the ends of
+/// the rays beside.
+std::vector<layers::Circle> circles_round_unexcused(std::span<const mesh::NarrowTriangle> narrow) {
+    constexpr double reach = 1.5;  // in longest edges
+    std::vector<layers::Circle> circles;
+    for (const mesh::NarrowTriangle& triangle : narrow) {
+        const auto [a, b, c] = triangle.corners;
+        circles.push_back(
+            {(1.0 / 3) * (a + b + c), reach * std::max({distance(a, b), distance(b, c), distance(c, a)})});
+    }
+    return circles;
+}
+
+/// Makes rays on walls, within their far field.
+FittedLayer grow_within(const FarFieldOptions& outer, const LayerOptions& options, Geometry geometry,
+                        const ReferenceConditions& conditions, const LayerGrowth& growth) {
+    FarField far_field = place_far_field(bounding_box(geometry), conditions.chord, outer);
+    layers::Rays rays = layers::grow_rays(geometry, options, growth);
+    if (options.enabled) require_room_for_layers(geometry, layers::fronts(rays), far_field, options, growth);
+    std::vector<double> front = rays.front;
+    return {.geometry = std::move(geometry),
+            .conditions = conditions,
+            .far_field = std::move(far_field),
+            .rays = std::move(rays),
+            .first_front = std::move(front)};
+}
+
+bool same_points(const Geometry& a, const Geometry& b) {
+    return std::equal(a.elements.begin(), a.elements.end(), b.elements.begin(), b.elements.end(),
+                      [](const Element& first, const Element& second) { return first.points == second.points; });
+}
+
+/// Requests the sizes that the options, the fronts of the rays and the wakes behind their layers ask for. Where a background
+/// mesh decides on sizes, wakes request them of borders alone.
+void request_sizes(SizingOptions options, FittedLayer& fitted) {
+    const layers::Rays& rays = fitted.rays;
+    const std::vector<ElementWake>& wakes = fitted.wakes;
+    std::vector<SizeSource> along_wakes;
+    for (std::size_t e = 0; e < wakes.size(); ++e) {
+        const std::size_t first = along_wakes.size();
+        for (const auto* sources : {&wakes[e].outer, &wakes[e].inner, &wakes[e].mixing})
+            for (const WakeSource& wake : *sources)
+                if (wake.begins >= rays.wake_lengths[e]) along_wakes.push_back(wake.source);
+        fit_wake_to_layer(rays, e, border_gradation(field_gradation(options)), std::span(along_wakes).subspan(first));
+    }
+    const bool decided = decides_on_sizes(options);
+    if (!decided) options.sources.insert(options.sources.end(), along_wakes.begin(), along_wakes.end());
+    std::vector<SizeSource>& at_borders = fitted.requests.at_borders;
+    fitted.requests = gather_size_requests(options, sized_bodies(fitted.geometry, fitted.conditions),
+                                           layers::fronts(rays), fitted.far_field.box());
+    if (decided) at_borders.insert(at_borders.end(), along_wakes.begin(), along_wakes.end());
+    at_borders.insert(at_borders.end(), fitted.short_edges.begin(), fitted.short_edges.end());
+}
+
+/// Counts the rays whose front is lower than it was at first, and finds the one that lost most of its height.
+void count_thinned(FittedLayer& fitted) {
+    fitted.thinned_rays = 0;
+    double least_share = 1;
+    for (std::size_t i = 0; i < fitted.first_front.size(); ++i) {
+        const double before = fitted.first_front[i];
+        if (fitted.rays.front[i] >= before) continue;
+        ++fitted.thinned_rays;
+        if (fitted.rays.front[i] >= least_share * before) continue;
+        least_share = fitted.rays.front[i] / before;
+        fitted.thinned_at = fitted.rays.set.lines[i].origin;
+    }
+}
+
+/// Returns whether all rays have all layers that were requested.
+bool all_layers_fit(const layers::Rays& rays) {
+    for (std::size_t i = 0; i < rays.counts.size(); ++i)
+        if (rays.counts[i] < rays.heights.column(i).asked_layers) return false;
+    return true;
+}
+
+/// Prepares the walls anew, with a finer spacing where the layer's border would be divided: rows of cells would end in fans
+/// below division points (docs/decisions/0009). `grow` makes rays on walls. Finer walls ask for finer ones beside them, which
+/// three rounds of halving reach.
+void refine_walls_below_borders(const SurfaceOptions& surface, double least_gradation, PreparedWalls& walls,
+                                const std::function<FittedLayer(Geometry)>& grow, FittedLayer& fitted) {
+    constexpr int max_rounds = 3;
+    for (int round = 0; round < max_rounds; ++round) {
+        BorderOptions border = border_with_sources(fitted.border, fitted.requests.at_borders);
+        border.gradation = std::max(border.gradation, least_gradation);
+        const std::vector<WallSpacing> finer = layers::wall_spacings(fitted.rays, border);
+        if (finer.empty()) return;
+        walls.limits.walls.insert(walls.limits.walls.end(), finer.begin(), finer.end());
+        Geometry prepared = prepare_surfaces(walls.given, surface, walls.limits, fitted.conditions.chord);
+        if (same_points(prepared, fitted.geometry)) return;  // the rest are stretches that keep their given points
+        fitted = grow(std::move(prepared));
+    }
+}
+
+/// Shortens rays so that columns end below cells above `above` layers with an angle above 150 degrees, for as long as there are
+/// fewer and fewer of them. `obtuse_cells_of` finds them. What ends below one cell can leave others, which go in the next of
+/// seven rounds; three without gain end the search. Returns whether it changed the rays.
+bool end_columns_below_obtuse_cells(
+    std::uint16_t above, const std::function<std::vector<layers::ObtuseCell>(const layers::Rays&)>& obtuse_cells_of,
+    std::vector<layers::ObtuseCell>& fewest, layers::Rays& best) {
+    constexpr int max_rounds = 7, max_rounds_without_gain = 3;
+    layers::Rays rays = best;
+    std::vector<layers::ObtuseCell> obtuse = fewest;
+    bool is_changed = false;
+    for (int round = 0, without_gain = 0; round < max_rounds && without_gain < max_rounds_without_gain; ++round) {
+        std::erase_if(obtuse, [&](const layers::ObtuseCell& cell) { return cell.layer <= above; });
+        if (!layers::end_columns_below(obtuse, rays)) break;
+        obtuse = obtuse_cells_of(rays);
+        ++without_gain;
+        if (obtuse.size() >= fewest.size()) continue;
+        fewest = obtuse;
+        best = rays;
+        is_changed = true;
+        without_gain = 0;
+    }
+    return is_changed;
+}
+
+/// Ends columns below cells with an angle above 150 degrees, first below those far from the wall. First layers stay
+/// (docs/layer.md). Returns whether it changed any.
+bool end_obtuse_columns(LayerTopology topology, const DecompositionOptions& decomposition, FittedLayer& fitted) {
+    // Cells far from the wall go first: what ends below cells in a cleft can be worse than these, and would hide the gain.
+    constexpr std::uint16_t far_from_wall = 10, above_first = 1;
+    const auto obtuse_cells_of = [&](const layers::Rays& rays) {
+        const Layer layer = layers::close_border(rays, border_with_sources(fitted.border, fitted.requests.at_borders));
+        return layers::obtuse_cells(layer, fill_layer(layer, topology, decomposition), largest_layer_angle_deg);
+    };
+    std::vector<layers::ObtuseCell> fewest = obtuse_cells_of(fitted.rays);
+    bool is_changed = false;
+    for (const std::uint16_t above : {far_from_wall, above_first})
+        if (end_columns_below_obtuse_cells(above, obtuse_cells_of, fewest, fitted.rays)) is_changed = true;
+    return is_changed;
+}
+
+}  // namespace
+
+FittedLayer fit_layer(PreparedWalls walls, const CaseOptions& options, const ReferenceConditions& conditions,
+                      const LayerGrowth& growth, std::vector<ElementWake> wakes) {
+    const LayerOptions& layer = options.layer;
+    const BorderOptions border = border_options(options, conditions.chord, {});
+    const auto grow = [&](Geometry prepared) {
+        FittedLayer fitted = grow_within(options.far_field, layer, std::move(prepared), conditions, growth);
+        fitted.wakes = wakes;
+        fitted.border = border;
+        request_sizes(options.sizing, fitted);
+        return fitted;
+    };
+    FittedLayer fitted = grow(std::move(walls.prepared));
+    if (layer.enabled && layers::uses("refine_walls"))
+        refine_walls_below_borders(options.surface, min_wall_gradation / options.fineness, walls, grow, fitted);
+    // Where all layers are made, nothing is in their way; equal numbers of layers are a promise.
+    if (layer.enabled && !layer.fan_rays && !all_layers_fit(fitted.rays) && layers::uses("end_obtuse") &&
+        end_obtuse_columns(layer.topology, options.decomposition, fitted)) {
+        count_thinned(fitted);
+        request_sizes(options.sizing, fitted);
+    }
+    return fitted;
+}
+
+Layer close_border(const FittedLayer& fitted) {
+    return layers::close_border(fitted.rays, border_with_sources(fitted.border, fitted.requests.at_borders));
+}
+
+bool make_room_at_narrow_triangles(std::span<const mesh::NarrowTriangle> narrow, bool thin, const SizingOptions& sizing,
+                                   FittedLayer& fitted) {
+    // Where no layer is thinned, the borders' edges become this share of the circles' radii.
+    constexpr double edge_share = 0.3;
+    if (!fitted.rays.enabled || narrow.empty() || !layers::uses("make_room")) return false;
+    const std::vector<layers::Circle> places = circles_round_unexcused(narrow);
+    std::vector<std::size_t> ends(places.size(), 0);
+    if (thin) ends = layers::shorten_rays(places, fitted.rays);
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        const Point at = places[k].middle;
+        if (ends[k] == 0) fitted.short_edges.push_back({.a = at, .b = at, .size = edge_share * places[k].radius});
+    }
+    count_thinned(fitted);
+    request_sizes(sizing, fitted);
+    return true;
+}
+
+}  // namespace lamina::pipeline

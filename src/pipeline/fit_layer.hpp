@@ -1,0 +1,56 @@
+// The layer is fitted to the walls, to the room between them, and to what is beyond it.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <lamina/pipeline.hpp>
+
+#include "layers/stages.hpp"
+#include "mesh/piece_check.hpp"
+#include "pipeline/flow_guidance.hpp"
+
+namespace lamina::pipeline {
+
+/// Walls as they are given and as they are prepared, with the limits on their spacing.
+struct PreparedWalls {
+    const Geometry& given;
+    Geometry prepared;
+    SpacingLimits limits;
+};
+
+/// Rays on walls, of which close_border() makes the layer, and the sizes that their fronts and the options request.
+struct FittedLayer {
+    Geometry geometry;  ///< the walls below
+    ReferenceConditions conditions;
+    FarField far_field;
+    layers::Rays rays;
+    SizeRequests requests{};
+    std::vector<ElementWake> wakes{};       ///< of the flow, one per element or none
+    BorderOptions border{};                 ///< how the border is divided, but for the sources of the requests
+    std::vector<double> first_front{};      ///< of the rays, before any was shortened
+    std::size_t thinned_rays = 0;           ///< MeshResult::thinned_rays
+    Point thinned_at{};                     ///< MeshResult::thinned_at
+    std::vector<SizeSource> short_edges{};  ///< further sizes for the edges of borders
+};
+
+/// Columns end below cells of the layer with larger angles than this, and `large_angle` warns of those that are left.
+inline constexpr double largest_layer_angle_deg = 150;
+
+/// Makes rays on these walls. Walls become finer where the layer's border would be divided, and columns end below cells with
+/// angles above 150 degrees. Behind the layers that go on along a wake, its sources request sizes. Throws OptionError where layers
+/// do not fit into the far field.
+FittedLayer fit_layer(PreparedWalls walls, const CaseOptions& options, const ReferenceConditions& conditions,
+                      const LayerGrowth& growth, std::vector<ElementWake> wakes);
+
+/// Returns the layer on its rays.
+Layer close_border(const FittedLayer& fitted);
+
+/// If there are isotropic triangles whose angle is below the bound, and which no sharp corner excuses: shortens the
+/// rays that end beside them (`thin`), or, where no layer is left and elsewhere, the edges of the borders there. Returns
+/// whether it changed anything.
+bool make_room_at_narrow_triangles(std::span<const mesh::NarrowTriangle> narrow, bool thin, const SizingOptions& sizing,
+                                   FittedLayer& fitted);
+
+}  // namespace lamina::pipeline

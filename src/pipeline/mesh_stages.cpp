@@ -1,0 +1,165 @@
+#include "pipeline/mesh_stages.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <lamina/error.hpp>
+#include <lamina/threads.hpp>
+
+#include "decoupling/far_field.hpp"
+#include "pipeline/assemble.hpp"
+#include "pipeline/mesh_limits.hpp"
+#include "pipeline/warnings.hpp"
+
+namespace lamina::pipeline {
+
+namespace {
+
+void summarize_refinement(const PiecesSummary& pieces, MeshResult& result) {
+    result.inviscid_pieces = pieces.pieces;
+    result.refinement += pieces.stats;
+    result.largest_inviscid_piece = pieces.largest;
+    if (pieces.pieces > 0)
+        result.estimates_within_15_percent =
+            static_cast<double>(pieces.good_estimates) / static_cast<double>(pieces.pieces);
+    result.mean_edge_over_size = pieces.mean_edge_over_size();
+}
+
+/// Records which column each cell of the layer belongs to, and where columns stand.
+void record_columns(const Layer& layer, const LayerCells& cells, MeshResult& result) {
+    if (cells.triangle_column.empty() && cells.quad_column.empty()) return;
+    result.columns = cells.triangle_column;
+    result.columns.insert(result.columns.end(), cells.quad_column.begin(), cells.quad_column.end());
+    for (const std::vector<Ray>& rays : layer.rays)
+        for (const Ray& ray : rays) result.column_origins.push_back(ray.origin);
+}
+
+void summarize_cells(const Layer& layer, const LayerCells& cells, MeshResult& result) {
+    result.layer_pieces = cells.pieces();
+    result.decomposition = cells.decomposition;
+    result.layer_grid_refused = cells.grid_refused;
+    record_columns(layer, cells, result);
+}
+
+/// Records what is known of a layer before it is filled.
+void summarize_layer(const FittedLayer& fitted, const Layer& layer, const LayerOptions& options, MeshResult& result) {
+    result.geometry = fitted.geometry;
+    result.conditions = fitted.conditions;
+    result.thinned_rays = fitted.thinned_rays;
+    result.thinned_at = fitted.thinned_at;
+    for (const auto& wall : layer.walls) result.surface_vertices += wall.size();
+    result.layer_coverage = layer.coverage;
+    if (!options.enabled) return;
+    result.border_steps = border_steps(layer);
+    for (std::size_t e = 0; e < layer.walls.size(); ++e)
+        result.first_heights.push_back(layer.growth.first_height_on(e));
+    if (const auto* y_plus = std::get_if<YPlus>(&options.first_height)) result.y_plus = *y_plus;
+}
+
+void require_valid(const MeshCheck& check) {
+    if (check.valid()) return;
+    const MeshDefect& first = check.defects.front();
+    throw MeshError(
+        fmt::format("the mesh made is not valid: {} near ({}, {}){}", first.description, first.at.x, first.at.y,
+                    check.defect_count > 1 ? fmt::format(", and {} more", check.defect_count - 1) : ""),
+        first.at);
+}
+
+/// Returns the heights that first cells should have on each marker of the mesh. The marker of the base of an element
+/// follows that of the element.
+std::vector<double> first_heights_of_markers(const MeshResult& result, std::span<const Marker> markers) {
+    std::vector<double> heights;
+    if (result.first_heights.empty()) return heights;
+    std::size_t next = 0;
+    for (const Marker& marker : markers) {
+        if (next < result.geometry.elements.size() && marker.name == result.geometry.elements[next].name) ++next;
+        heights.push_back(result.first_heights[next - 1]);
+    }
+    return heights;
+}
+
+/// Divides the far field into inlet and outlet (`splits`), and takes slip walls out of it.
+void divide_far_field(const FittedLayer& fitted, const FarFieldOptions& options, bool splits, MeshDriver& driver,
+                      std::span<const Point> points, std::vector<Marker>& markers) {
+    const bool has_slip_walls = options.tunnel || options.ground;
+    if (!splits && !has_slip_walls) return;
+    driver.place_far_field();
+    if (has_slip_walls) mark_slip_walls(points, markers, fitted.far_field, options.ground.has_value());
+    if (splits || options.tunnel) split_far_field(points, markers, fitted.conditions.alpha_deg);
+}
+
+}  // namespace
+
+MadeMesh make_mesh(const FittedLayer& fitted, const CaseOptions& options, MeshDriver& driver, StageClock& clock) {
+    const WorkBudget budget{options.limits, driver.cost()};
+    MadeMesh made;
+    MeshResult& result = made.result;
+    const Layer layer = close_border(fitted);
+    summarize_layer(fitted, layer, options.layer, result);
+    made.constraints = layer.edges.interfaces;
+    clock.end(&StageSeconds::layers);
+
+    clock.begin("sizing");
+    const SizeField size = make_size_field(border_loops(layer), fitted.requests.sources, options.sizing,
+                                           fitted.conditions.chord, fitted.far_field.box());
+    std::optional<RunEstimate> estimate;
+    driver.lead([&] {
+        estimate =
+            estimate_within_limits(options.refine, options.sizing.gradation, layer, size, fitted.far_field, budget);
+        result.estimate = *estimate;
+    });
+    clock.end(&StageSeconds::sizing);
+
+    clock.begin("decoupling", estimate);
+    const DecoupledBorders borders = driver.decouple(
+        {layer.points, layer.borders, size, fitted.far_field, options.decoupling},
+        refine_within(options.refine, fitted.conditions.chord, budget), triangles_beyond_layer(result.estimate, layer));
+    std::vector<Marker> markers =
+        make_markers(fitted.geometry, layer, {borders.far_field.begin(), borders.far_field.end()}, options.assemble);
+    divide_far_field(fitted, options.far_field, options.inlet_outlet, driver, borders.points, markers);
+    clock.end(&StageSeconds::decoupling);
+
+    clock.begin("layer triangulation, refinement and check of pieces");
+    mesh::PiecewiseCheck check(
+        borders.points,
+        {.min_angle_deg = options.refine.min_angle_deg, .first_heights = first_heights_of_markers(result, markers)},
+        driver.matched_elsewhere(layer));
+    core::BusyTimes times;
+    MadePieces pieces =
+        driver.make({layer, options.layer.topology, options.decomposition, markers, check, times, clock});
+    result.threads = thread_count();
+    result.thread_seconds = clock.end_shared(times);
+
+    clock.begin("check");
+    driver.lead([&] {
+        result.check = check.finish(markers, made.constraints, pieces.first_triangle);
+        require_valid(result.check);
+        made.narrow = check.unexcused();
+    });
+    driver.tell_narrow(made.narrow);
+    clock.end(&StageSeconds::check);
+
+    clock.begin("assembly");
+    require_made_within(budget, pieces.counts);
+    result.mesh = std::move(pieces.mesh);
+    result.mesh.markers = std::move(markers);
+    summarize_cells(layer, pieces.cells, result);
+    summarize_refinement(pieces.summary, result);
+    driver.lead([&] {
+        result.warnings = find_warnings(
+            result, options,
+            {check.widest().middle, check.narrowest().middle, pieces.summary.oversized.middle, made.narrow},
+            pieces.layer);
+    });
+    driver.keep_parts(pieces);
+    made.counts = pieces.counts;
+    made.hash = std::move(pieces.hash);
+    made.sink = std::move(pieces.sink);
+    made.parts = std::move(pieces.parts);
+    clock.end(&StageSeconds::assembly);
+    return made;
+}
+
+}  // namespace lamina::pipeline
