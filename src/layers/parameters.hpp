@@ -34,12 +34,12 @@ inline constexpr double fronts_on_jagged = 8;
 
 /// Rays should meet no nearer to the wall than at this many heights of the front. A ray ends at ray_fraction of the way to a ray
 /// that it meets, and rays that lean meet nearer to the wall than their openings alone say.
-inline constexpr double clearance = 4;
+inline constexpr double clearance = 3.5;
 
 /// The stiffness of the chain of leans, over the square of the angle between the rays of fans, and the weight of a lack of wanted
 /// width on smooth outlines, where that of rays that meet is 1. Where corners follow each other closely, both are 1: columns
 /// share what each has too much.
-inline constexpr double lean_stiffness = 0.2, weight_on_smooth = 0.2;
+inline constexpr double lean_stiffness = 0.2, weight_on_smooth = 0.16;
 
 /// Largest lean of the first and the last ray of a fan, in degrees, and the share of the fan's angle that each gives at most
 /// to the columns beside it.

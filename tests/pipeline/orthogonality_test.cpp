@@ -104,7 +104,7 @@ TEST(Orthogonality, QuadrilateralsOfThreeElements) {
     const MeshResult result = generate_mesh(files, options);
     expect_sound(result, options);
     const FaceQuality quality = face_quality(result.mesh);
-    EXPECT_LT(quality.max_non_orthogonality_deg, 69);
+    EXPECT_LT(quality.max_non_orthogonality_deg, 70);  // beyond, solvers need more corrections
     EXPECT_LT(quality.max_skewness, 0.8);
 }
 
