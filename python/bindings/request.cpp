@@ -11,6 +11,7 @@
 #include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
+#include <lamina/former_options.hpp>
 #include <lamina/io.hpp>
 #include <lamina/option_builders.hpp>
 
@@ -85,6 +86,7 @@ MeshRequest make_request(const std::vector<std::pair<std::string, OptionValue>>&
         preset_options(request.preset, std::any_of(std::begin(reynolds_options), std::end(reynolds_options), is_given));
     std::vector<std::string> given;
     for (const auto& [key, value] : values) {
+        refuse_former_option(key);
         const Option<MeshRequest>& row = find_row_of_key(request_table(), key);
         row.set(request, value);
         given.push_back(row.name);

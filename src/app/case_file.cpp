@@ -9,6 +9,7 @@
 
 #include <lamina/error.hpp>
 #include <lamina/files.hpp>
+#include <lamina/former_options.hpp>
 #include <lamina/version.hpp>
 
 #include "app/option_hint.hpp"
@@ -113,8 +114,10 @@ toml::table parse(const std::filesystem::path& file) {
     }
 }
 
-/// Returns the key that an unknown key probably means, as the end of a message.
+/// Returns the key that an unknown key probably means, or what serves in place of one that is gone, as the end of a
+/// message.
 std::string hint_for_key(std::string_view key) {
+    if (const FormerOption* former = find_former_option(std::string(key))) return ": " + advice_in_file(*former);
     std::vector<std::string> names;
     for (const Option<MeshCase>& option : mesh_options()) names.push_back(option.name);
     Hint hint = hint_for_option("mesh", std::string(key), names);

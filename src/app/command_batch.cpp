@@ -14,6 +14,7 @@
 
 #include <lamina/error.hpp>
 #include <lamina/files.hpp>
+#include <lamina/former_options.hpp>
 #include <lamina/io.hpp>
 #include <lamina/suggestion.hpp>
 
@@ -65,8 +66,10 @@ Sweep parse_sweep(const std::string& text) {
         names.push_back(option.name);
     }
     const std::string name = text.substr(0, equals);
+    const FormerOption* former = find_former_option(name);
     throw UsageError(
-        fmt::format("option --sweep: there is no option '{}'{}", name, did_you_mean(closest_word(name, names))));
+        fmt::format("option --sweep: there is no option '{}'{}", name,
+                    former ? ": " + advice_on_command_line(*former) : did_you_mean(closest_word(name, names))));
 }
 
 /// Adds an option that is swept, over the value that it may have besides. Throws UsageError where it is swept already.

@@ -16,13 +16,10 @@ void add_mesh_command(CLI::App& app, Ranks* ranks) {
     CLI::App* command = app.add_subcommand("mesh", "make a mesh round airfoils and write it");
     auto options = std::make_shared<GivenOptions>(add_mesh_options(*command));
     command->footer(format_help());
-    auto dump = std::make_shared<bool>(false), markdown = std::make_shared<bool>(false);
+    auto dump = std::make_shared<bool>(false);
     command->add_flag("--dump-config", *dump, "print the options in force as a case file, and do nothing else")
         ->group("Run");
-    command->add_flag("--options-as-markdown", *markdown, "print a table of all options, and do nothing else")
-        ->group("Run" + std::string(further_options));
-    command->callback([options, dump, markdown, ranks] {
-        if (*markdown) return print_result(options_as_markdown());
+    command->callback([options, dump, ranks] {
         MeshCase mesh_case = case_of_command_line(*options);
         prefer_quads_for_openfoam(mesh_case);
         require_consistent(mesh_case);

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <lamina/former_options.hpp>
 #include <lamina/suggestion.hpp>
 
 namespace lamina::app {
@@ -260,8 +261,13 @@ constexpr OtherWord command_words[] = {
     {"setup", "case"},        {"solve", "case"},    {"refine", "delaunay"},
 };
 
+/// Returns whether a command takes the options of meshes, or some of them.
+bool takes_mesh_options(const std::string& command) {
+    return command == "mesh" || command == "family" || command == "batch" || command == "case";
+}
+
 std::span<const OtherWord> words_of_command(const std::string& command) {
-    if (command == "mesh" || command == "family" || command == "batch" || command == "case") return mesh_words;
+    if (takes_mesh_options(command)) return mesh_words;
     if (command == "flow") return flow_words;
     if (command == "delaunay") return delaunay_words;
     if (command == "check") return check_words;
@@ -303,6 +309,8 @@ bool is_input(const std::string& word) {
 }  // namespace
 
 Hint hint_for_other_word(const std::string& command, const std::string& word) {
+    if (takes_mesh_options(command))
+        if (const FormerOption* former = find_former_option(word)) return {"", advice_on_command_line(*former)};
     Hint hint = look_up(words_of_command(command), word);
     const bool one_hyphen = word.starts_with('-') && !word.starts_with("--");
     if (hint.empty() && command == "delaunay" && one_hyphen) hint.advice = triangle_switches(word);

@@ -120,19 +120,6 @@ OptionValue parse_count(const std::string& text, const std::string& origin) {
     return parse<std::int64_t>(text, origin, "whole number");
 }
 
-/// Returns the default of an option as a person reads it; empty for flags and options without a default.
-std::string default_text(const Option<MeshCase>& option) {
-    const std::optional<OptionValue> value = option.get(MeshCase{});
-    return value && option.kind != OptionKind::flag ? to_text(*value) : "";
-}
-
-/// Returns what a command line holds for the option: "--first-height H".
-std::string usage_text(const Option<MeshCase>& option) {
-    if (option.name == "input") return option.metavar;
-    if (option.name == "output") return "-o, --output " + option.metavar;
-    return "--" + option.name + (option.metavar.empty() ? "" : " ") + option.metavar;
-}
-
 }  // namespace
 
 const OptionTable<MeshCase>& mesh_options() {
@@ -170,6 +157,11 @@ void require_consistent(const MeshCase& mesh_case) {
 
 double parse_real(const std::string& text, const std::string& origin) { return parse<double>(text, origin, "number"); }
 
+std::string default_text(const Option<MeshCase>& option) {
+    const std::optional<OptionValue> value = option.get(MeshCase{});
+    return value && option.kind != OptionKind::flag ? to_text(*value) : "";
+}
+
 std::string help_text(const Option<MeshCase>& option) {
     const std::string value = default_text(option);
     return help_with_range(option) + (value.empty() ? "" : " [" + value + "]");
@@ -196,28 +188,6 @@ std::string to_text(const OptionValue& value) {
         }
     };
     return std::visit(Printer{}, value);
-}
-
-std::string options_as_markdown() {
-    std::string text =
-        "# Options of `lamina mesh`\n\n"
-        "`lamina mesh --options-as-markdown` prints this page. Case files use the same names with underscores for "
-        "hyphens. Lengths are numbers of chords (`--chord`), or of units of the input with the suffix `u`: `0.003u`. "
-        "Positions are in units of the input, and angles in degrees.\n";
-    std::string_view group;
-    const auto escaped = [](std::string cell) {
-        for (std::size_t at = 0; (at = cell.find('|', at)) != std::string::npos; at += 2) cell.replace(at, 1, "\\|");
-        return cell;
-    };
-    for (const Option<MeshCase>& option : mesh_options()) {
-        if (option.group != group) {
-            group = option.group;
-            text += fmt::format("\n## {}\n\n| option | default | meaning |\n|---|---|---|\n", group);
-        }
-        text += fmt::format("| `{}` | {} | {} |\n", escaped(usage_text(option)), default_text(option),
-                            escaped(help_with_range(option)));
-    }
-    return text;
 }
 
 }  // namespace lamina::app

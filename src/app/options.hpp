@@ -23,6 +23,9 @@ std::string help_with_range(const Option<Options>& option) {
     return option.help + (option.range.empty() ? "" : "; " + option.range);
 }
 
+/// Returns the default of an option as a person reads it; empty for flags and options without a default.
+std::string default_text(const Option<MeshCase>& option);
+
 /// Returns the description of an option with the range of its values and its default in brackets.
 std::string help_text(const Option<MeshCase>& option);
 
@@ -44,8 +47,5 @@ double parse_real(const std::string& text, const std::string& origin);
 
 /// Returns the value as a person reads it: "0.1", "fan", "a,b". An empty list gives an empty text.
 std::string to_text(const OptionValue& value);
-
-/// Returns the table of the options as a page in Markdown: docs/options.md.
-std::string options_as_markdown();
 
 }  // namespace lamina::app

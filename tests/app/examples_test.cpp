@@ -1,9 +1,7 @@
-// The case files of examples/, and the page of options in docs/.
+// The case files of examples/.
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <string>
 #include <vector>
@@ -30,15 +28,6 @@ Json mesh_of_example(const std::string& name, const std::vector<std::string>& op
                                                  "--wall", "airfoil", "--far", "farfield"});
     EXPECT_EQ(check.exit_code, 0) << check.out << check.err;
     return Json::parse(folder.read("r.json"));
-}
-
-TEST(Documentation, ThePageOfOptionsIsTheOneThatTheProgramPrints) {
-    const TemporaryFolder folder;
-    const ProgramRun printed = run_lamina(folder, {"mesh", "--options-as-markdown"});
-    EXPECT_EQ(printed.exit_code, 0) << printed.err;
-    std::ifstream page(LAMINA_SOURCE_DIR "/docs/options.md");
-    const std::string written((std::istreambuf_iterator<char>(page)), {});
-    EXPECT_EQ(printed.out, written) << "./dev docs writes it anew";
 }
 
 TEST(Examples, TheCaseOfTheReadmeIsMeshed) {

@@ -1,5 +1,12 @@
 // What the program says to words that it does not know, and how it gives help.
+#include <algorithm>
+#include <sstream>
+#include <string>
+#include <vector>
+
 #include <gtest/gtest.h>
+
+#include <lamina/former_options.hpp>
 
 #include "app/program.hpp"
 
@@ -134,6 +141,53 @@ TEST(Hints, KeysOfCaseFiles) {
     expect_refused(folder, {"mesh", "a.toml"}, usage, "did you mean alpha?");
     folder.write("a.toml", "input = 'naca:0012'\nnaca = '0012'\n");
     expect_refused(folder, {"mesh", "a.toml"}, usage, "a NACA section is an input");
+}
+
+/// Returns the words of a command line, with a number for what stands for one.
+std::vector<std::string> arguments_of(const std::string& text) {
+    std::vector<std::string> words;
+    std::istringstream in(text);
+    for (std::string word; in >> word;) words.push_back(word == "N" ? "200" : word);
+    return words;
+}
+
+TEST(Hints, FormerOptionsNameWhatServesInTheirPlace) {
+    const TemporaryFolder folder;
+    const std::string all = run_lamina(folder, {"mesh", "--help-all"}).out;
+    for (const FormerOption& former : former_options()) {
+        const std::string name = former.name, reason = former.reason, arguments = former.arguments, line = former.line;
+        SCOPED_TRACE(name);
+        EXPECT_EQ(all.find("--" + name + " "), std::string::npos) << "it is no former option";
+        const std::string given = arguments.empty() ? "leave it out: " : "give " + arguments + ": ";
+        for (const char* command : {"mesh", "family", "batch"})
+            for (const std::string value : {"", "=5"})
+                expect_refused(folder, {command, "naca:0012", "-o", "a.su2", "--" + name + value}, usage,
+                               "unknown option --" + name + value + ": " + given + reason);
+        expect_refused(folder, {"mesh", "naca:0012", "-o", "a.su2", "--" + name, "5"}, usage, given + reason);
+        expect_refused(folder, {"batch", "naca:0012", "-o", "a.su2", "--sweep", name + "=1,2"}, usage, given + reason);
+
+        std::string key = name;
+        std::replace(key.begin(), key.end(), '-', '_');
+        folder.write("a.toml", "input = 'naca:0012'\n" + key + " = 5\n");
+        expect_refused(
+            folder, {"mesh", "a.toml"}, usage,
+            "a.toml:2: " + key + ": no such option: " + (line.empty() ? "delete it" : "write " + line) + ": " + reason);
+
+        // What is advised is taken.
+        if (!arguments.empty()) {
+            std::vector<std::string> advised{"mesh", "naca:0012", "--dump-config"};
+            for (const std::string& word : arguments_of(arguments)) advised.push_back(word);
+            const ProgramRun run = run_lamina(folder, advised);
+            EXPECT_EQ(run.exit_code, 0) << run.err;
+        }
+        if (!line.empty()) {
+            std::string written = line;
+            if (written.ends_with(" N")) written.replace(written.size() - 1, 1, "200");
+            folder.write("a.toml", "input = 'naca:0012'\n" + written + "\n");
+            const ProgramRun run = run_lamina(folder, {"mesh", "a.toml", "--dump-config"});
+            EXPECT_EQ(run.exit_code, 0) << run.err;
+        }
+    }
 }
 
 TEST(Hints, Commands) {

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include <lamina/former_options.hpp>
 #include <lamina/option_builders.hpp>
 
 #include "values.hpp"
@@ -54,6 +55,7 @@ MeshRequest make_request(const val& values) {
         preset_options(request.preset, std::any_of(std::begin(reynolds_options), std::end(reynolds_options), is_given));
     std::vector<std::string> given;
     for (const std::string& key : keys) {
+        refuse_former_option(key);
         const Option<MeshRequest>& row = find_row_of_key(request_table(), key);
         row.set(request, option_value_of(values[key], key));
         given.push_back(row.name);

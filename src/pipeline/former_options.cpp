@@ -1,0 +1,45 @@
+#include <lamina/former_options.hpp>
+
+#include <algorithm>
+#include <iterator>
+
+#include <lamina/error.hpp>
+#include <lamina/suggestion.hpp>
+
+namespace lamina {
+
+namespace {
+
+constexpr FormerOption table[] = {
+    {"options-as-markdown", "--help-all", "", "it describes all options, as docs/options.md does"},
+};
+
+std::string advice(const std::string& order, const FormerOption& option) { return order + ": " + option.reason; }
+
+}  // namespace
+
+std::span<const FormerOption> former_options() { return table; }
+
+const FormerOption* find_former_option(const std::string& word) {
+    const std::string letters = plain_word(word.substr(0, word.find('=')));
+    const auto* const found = std::find_if(std::begin(table), std::end(table),
+                                           [&](const FormerOption& o) { return plain_word(o.name) == letters; });
+    return found == std::end(table) ? nullptr : found;
+}
+
+std::string advice_on_command_line(const FormerOption& option) {
+    const std::string arguments = option.arguments;
+    return advice(arguments.empty() ? "leave it out" : "give " + arguments, option);
+}
+
+std::string advice_in_file(const FormerOption& option) {
+    const std::string line = option.line;
+    return advice(line.empty() ? "delete it" : "write " + line, option);
+}
+
+void refuse_former_option(const std::string& key) {
+    if (const FormerOption* option = find_former_option(key))
+        throw OptionError(key, "no such option: " + advice_in_file(*option));
+}
+
+}  // namespace lamina
