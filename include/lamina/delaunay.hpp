@@ -22,9 +22,6 @@ namespace lamina {
 
 // ---- options of decompositions (triangulation.hpp) ----
 
-/// Returns the table of these options, with names, ranges and help.
-LAMINA_EXPORT const OptionTable<DecompositionOptions>& decomposition_option_table();
-
 /// Throws OptionError where an option is out of range.
 LAMINA_EXPORT void validate(const DecompositionOptions& options);
 

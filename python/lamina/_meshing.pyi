@@ -131,10 +131,6 @@ def mesh(
     separators: Literal["equidistributed", "k-rule"] | None = None,
     # triangles per piece, about; >= 100 and <= 1e+09 [50000]
     pieces_target: float | None = None,
-    # largest number of cuts on the way to a piece of the layer; >= 0 and <= 24 [6]
-    decomposition_depth: int | None = None,
-    # pieces of the layer with at most this many vertices are not cut further; >= 1 and <= 1e+09 [5000]
-    leaf_vertices: int | None = None,
     # whether a panel method and boundary layers decide first heights for y+, the least thickness of --layers
     # auto, and wakes; needs a Reynolds number [no]
     use_flow: bool | None = None,

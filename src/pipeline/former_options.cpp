@@ -10,7 +10,12 @@ namespace lamina {
 
 namespace {
 
+constexpr const char* layer_is_in_pieces =
+    "the program chooses the pieces of the layer, which never change its triangles";
+
 constexpr FormerOption table[] = {
+    {"decomposition-depth", "", "", layer_is_in_pieces},
+    {"leaf-vertices", "", "", layer_is_in_pieces},
     {"options-as-markdown", "--help-all", "", "it describes all options, as docs/options.md does"},
 };
 

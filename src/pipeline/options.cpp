@@ -82,7 +82,6 @@ OptionTable<CaseOptions> make_table() {
     add_stage(sizing_option_table(), &CaseOptions::sizing, table);
     add_stage(refine_option_table(), &CaseOptions::refine, table);
     add_stage(decoupling_option_table(), &CaseOptions::decoupling, table);
-    add_stage(decomposition_option_table(), &CaseOptions::decomposition, table);
     for (const Option<CaseOptions>& option : pipeline_rows()) add_row(option, table);
     return table;
 }

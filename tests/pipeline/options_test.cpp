@@ -107,7 +107,8 @@ TEST(CaseOptions, ValidateFindsTheOptionOfAnyStage) {
     EXPECT_EQ(refused([&](CaseOptions& o) { o.sizing.gradation = nan; }), "gradation");
     EXPECT_EQ(refused([](CaseOptions& o) { o.far_field.size = 0; }), "far_field");
     EXPECT_EQ(refused([](CaseOptions& o) { o.decoupling.pieces_target = 1; }), "pieces_target");
-    EXPECT_EQ(refused([](CaseOptions& o) { o.decomposition.depth = 100; }), "decomposition_depth");
+    EXPECT_EQ(refused([](CaseOptions& o) { o.decomposition.depth = 100; }), "depth");
+    EXPECT_EQ(refused([](CaseOptions& o) { o.decomposition.leaf_vertices = 0; }), "leaf_vertices");
     EXPECT_EQ(refused([](CaseOptions& o) { o.surface.max_ratio = 0.5; }), "max_ratio");
 }
 
@@ -126,7 +127,7 @@ TEST(StageOptions, EveryStageRefusesValuesOutOfRangeByItself) {
     for (std::size_t i = 0; i < 4; ++i) sides.push_back({VertexId(i), VertexId((i + 1) % 4)});
     const Geometry body = shapes::geometry({shapes::circle(0.5, 40)});
 
-    EXPECT_EQ(refused_option([&] { triangulate(corners, DecompositionOptions{.depth = 100}); }), "decomposition_depth");
+    EXPECT_EQ(refused_option([&] { triangulate(corners, DecompositionOptions{.depth = 100}); }), "depth");
     for (double bound : {-1.0, 40.0, 60.0, nan})
         EXPECT_EQ(refused_option([&] { refine(corners, sides, SizeField(0.2), {.min_angle_deg = bound}); }),
                   "min_angle");

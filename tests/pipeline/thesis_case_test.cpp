@@ -6,6 +6,7 @@
 
 #include "pipeline/cases.hpp"
 #include "support/layers.hpp"
+#include "support/point_sets.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace lamina::test {
@@ -106,6 +107,28 @@ TEST_F(ThesisCase, ThreadsDoNotChangeAByte) {
     const auto one = bytes(1);
     EXPECT_TRUE(bytes(2) == one);
     EXPECT_TRUE(bytes(4) == one);
+}
+
+/// Fig. 23: at depths of 3 to 7 the layer is cut into 8 to 128 pieces, which do not change the mesh.
+TEST(ThesisLayer, IsTheSameInPiecesOfAnyDepth) {
+    CaseOptions options = thesis_options();
+    options.layer.topology = LayerTopology::delaunay;
+    options.sizing.gradation = 0.3;
+    const auto in_pieces = [&](unsigned depth) {
+        options.decomposition = {.depth = depth, .leaf_vertices = 10};
+        return generate_mesh({"naca:0012:5000"}, options);
+    };
+    const auto whole = canonical(in_pieces(0).mesh.triangles);
+    for (const unsigned depth : {3, 6, 7}) {
+        SCOPED_TRACE(depth);
+        const MeshResult result = in_pieces(depth);
+        expect_sound(result, options);
+        const DecompositionStats& stats = result.decomposition;
+        EXPECT_EQ(stats.pieces, std::size_t{1} << depth);
+        EXPECT_EQ(stats.fallbacks, 0u);
+        EXPECT_LE(double(stats.largest_piece) * double(stats.pieces), 1.25 * double(stats.piece_vertices));
+        EXPECT_TRUE(canonical(result.mesh.triangles) == whole);
+    }
 }
 
 }  // namespace
