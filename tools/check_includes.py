@@ -44,6 +44,7 @@ for name in "delaunay_connectivity delaunay_input delaunay_queries dynamic_trian
     OWNERS[name] = "delaunay"
 OWNERS["places"] = "mesh"
 OWNERS["partition"] = "mesh"
+OWNERS["former_options"] = "pipeline"
 OWNERS["presets"] = "pipeline"
 OWNERS["mesh_sink"] = "mesh"
 OWNERS["stream"] = "pipeline"

@@ -65,22 +65,10 @@ struct FarField {
 /// is out of range, where an outline does not enclose the middle of that box, and where a tunnel does not enclose it.
 LAMINA_EXPORT FarField place_far_field(const Box& bodies, double chord, const FarFieldOptions& options = {});
 
-/// How separators between subdomains are divided into segments.
-enum class SeparatorRule {
-    equidistributed,  ///< into equal shares of the integral of ds / h, which leaves no visible seam
-    /// Into segments from 2 k / sqrt 3 to 2 k long, where k = 1/2 sqrt(A / sqrt 2) and A is the largest area that
-    /// triangles may have (thesis, chapter 5, equation 1).
-    k_rule,
-};
-
 /// Options of the stage "decouple".
 struct DecouplingOptions {
-    SeparatorRule separators = SeparatorRule::equidistributed;  ///< how separators are divided
-    double pieces_target = 50'000;                              ///< target number of triangles per subdomain
+    double pieces_target = 50'000;  ///< target number of triangles per subdomain
 };
-
-/// Returns the table of these options, with names, ranges and help.
-LAMINA_EXPORT const OptionTable<DecouplingOptions>& decoupling_option_table();
 
 /// Throws OptionError where an option is out of range.
 LAMINA_EXPORT void validate(const DecouplingOptions& options);

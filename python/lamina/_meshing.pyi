@@ -127,10 +127,6 @@ def mesh(
     # merge, split and join otherwise the vertices near those without six neighbours, where that makes isotropic
     # triangles more regular; takes some fifty times as long as refinement
     regularize: bool | None = None,
-    # how borders between pieces are divided [equidistributed]
-    separators: Literal["equidistributed", "k-rule"] | None = None,
-    # triangles per piece, about; >= 100 and <= 1e+09 [50000]
-    pieces_target: float | None = None,
     # whether a panel method and boundary layers decide first heights for y+, the least thickness of --layers
     # auto, and wakes; needs a Reynolds number [no]
     use_flow: bool | None = None,

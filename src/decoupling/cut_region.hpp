@@ -11,10 +11,10 @@
 #include <lamina/decoupling.hpp>
 #include <lamina/export.hpp>
 #include <lamina/ranks.hpp>
+#include <lamina/sizing.hpp>
 
 #include "decoupling/cut_to_size.hpp"
 #include "decoupling/lines.hpp"
-#include "decoupling/separators.hpp"
 
 namespace lamina::decoupling {
 
@@ -60,10 +60,10 @@ struct BesideCuts {
 /// have their ids before anything is cut. EstimatedBorder::kept tells which pieces a process may have made with it.
 LAMINA_EXPORT CutRegion cut_region(const OuterRegion& region, Ranks* ranks = nullptr, const BesideCuts& beside = {});
 
-/// Makes a subdomain from its border. Divides its lines, and estimates its work unless that is known: null. `spacing`
-/// holds the size field and the rule of the region.
+/// Makes a subdomain from its border. Divides its lines, and estimates its work unless that is known: null. `size` is the
+/// size field of the region.
 LAMINA_EXPORT Subdomain make_subdomain(const LineBorder& border, const WorkEstimate* known, Lines& lines,
-                                       const SeparatorSpacing& spacing, const RefineOptions& refine);
+                                       const SizeField& size, const RefineOptions& refine);
 
 /// A short hash of all lines before they are numbered. What processes tell of their cuts means something else where it
 /// differs. All tell it to all, so it is short: require_same_borders() has a long one in the end.

@@ -72,18 +72,17 @@ struct Part {
 /// Cuts borders in two, and their parts again.
 class Bisection {
 public:
-    Bisection(const SeparatorSpacing& spacing, double pieces_target)
-        : spacing_(spacing), pieces_target_(pieces_target) {}
+    Bisection(const SizeField& size, double pieces_target) : size_(size), pieces_target_(pieces_target) {}
 
     /// Searches separators for all borders. May run at the same time as the other functions.
     std::vector<SearchResult> search(Lines& lines, std::span<const Part> parts) const {
         return core::parallel_blocks(parts.size(), 1, [&](std::size_t i, std::size_t) {
-            return search_separator(localize(parts[i].border, lines, spacing_), spacing_, pieces_target_);
+            return search_separator(localize(parts[i].border, lines, size_), size_, pieces_target_);
         });
     }
     std::vector<SearchResult> search(Lines& lines, const SimpleRegions& regions) const {
         return core::parallel_blocks(regions.size(), 1, [&](std::size_t i, std::size_t) {
-            return search_separator(localize(regions.border(i, lines), lines, spacing_), spacing_, pieces_target_);
+            return search_separator(localize(regions.border(i, lines), lines, size_), size_, pieces_target_);
         });
     }
 
@@ -144,7 +143,7 @@ public:
     }
 
 private:
-    const SeparatorSpacing& spacing_;
+    const SizeField& size_;
     double pieces_target_;
     std::vector<EstimatedBorder> done_;
 };
@@ -167,10 +166,10 @@ void cut_dealt(Lines& lines, std::vector<Part> parts, unsigned processes, Bisect
 class CutsAtOnce {
 public:
     /// The others are the regions without holes, in their order.
-    CutsAtOnce(const SimpleRegions& others, const SeparatorSpacing& spacing, double pieces_target, Ranks& ranks,
+    CutsAtOnce(const SimpleRegions& others, const SizeField& size, double pieces_target, Ranks& ranks,
                const MakeTrapezoid& make)
         : others_(others),
-          spacing_(spacing),
+          size_(size),
           pieces_target_(pieces_target),
           ranks_(ranks),
           make_(make),
@@ -206,7 +205,7 @@ private:
     static constexpr double kept_share = 0.7;
 
     const SimpleRegions& others_;
-    const SeparatorSpacing& spacing_;
+    const SizeField& size_;
     double pieces_target_;
     Ranks& ranks_;
     const MakeTrapezoid& make_;
@@ -246,7 +245,7 @@ private:
     }
 
     SearchResult search(const LineBorder& border, Lines& lines) const {
-        SearchResult result = search_separator(localize(border, lines, spacing_), spacing_, pieces_target_);
+        SearchResult result = search_separator(localize(border, lines, size_), size_, pieces_target_);
         make_as_told(result);
         result.process = ranks_.rank();
         return result;
@@ -389,7 +388,7 @@ private:
                 dealt.push_back({is_own ? &own.emplace_back(others_.border(i, lines)) : nullptr, process});
             }
         if (dealt.empty()) return {};
-        return search_together(lines, dealt, spacing_, pieces_target_, ranks_);
+        return search_together(lines, dealt, size_, pieces_target_, ranks_);
     }
 };
 
@@ -403,12 +402,12 @@ std::vector<Part> parts_of(std::vector<LineBorder> borders) {
 
 }  // namespace
 
-std::vector<EstimatedBorder> cut_to_size(Lines& lines, UncutRegions regions, const SeparatorSpacing& spacing,
+std::vector<EstimatedBorder> cut_to_size(Lines& lines, UncutRegions regions, const SizeField& size,
                                          double pieces_target) {
     // The subdomain round the bodies is cut many times over and would occupy one thread at first. The other threads
     // search the remaining subdomains meanwhile, whose borders hold none of the vertices that these cuts add.
     const SimpleRegions others(regions);
-    Bisection bisection(spacing, pieces_target);
+    Bisection bisection(size, pieces_target);
     std::vector<SearchResult> results;
     core::parallel_invoke([&] { bisection.cut_all(lines, parts_of(std::move(regions.borders))); },
                           [&] { results = bisection.search(lines, others); });
@@ -416,18 +415,18 @@ std::vector<EstimatedBorder> cut_to_size(Lines& lines, UncutRegions regions, con
     return bisection.take_done();
 }
 
-std::vector<EstimatedBorder> cut_to_size_together(Lines& lines, UncutRegions regions, const SeparatorSpacing& spacing,
+std::vector<EstimatedBorder> cut_to_size_together(Lines& lines, UncutRegions regions, const SizeField& size,
                                                   double pieces_target, Ranks& ranks, const MakeTrapezoid& make) {
     // The order of all cuts is that of cut_to_size().
     const SimpleRegions others(regions);
-    Bisection bisection(spacing, pieces_target);
-    CutsAtOnce cuts(others, spacing, pieces_target, ranks, make);
+    Bisection bisection(size, pieces_target);
+    CutsAtOnce cuts(others, size, pieces_target, ranks, make);
     std::vector<Part> of_others = cuts.cut(lines, parts_of(std::move(regions.borders)), bisection);
     cut_dealt(lines, std::move(of_others), ranks.size(), bisection,
               [&](std::span<const Part> parts, std::span<const unsigned> processes) {
                   std::vector<DealtBorder> dealt;
                   for (std::size_t i = 0; i < parts.size(); ++i) dealt.push_back({&parts[i].border, processes[i]});
-                  return search_together(lines, dealt, spacing, pieces_target, ranks);
+                  return search_together(lines, dealt, size, pieces_target, ranks);
               });
     return bisection.take_done();
 }

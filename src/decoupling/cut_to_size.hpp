@@ -9,12 +9,12 @@
 
 #include <lamina/decoupling.hpp>
 #include <lamina/ranks.hpp>
+#include <lamina/sizing.hpp>
 
 #include "decoupling/border_triangulation.hpp"
 #include "decoupling/line_border.hpp"
 #include "decoupling/lines.hpp"
 #include "decoupling/ring_regions.hpp"
-#include "decoupling/separators.hpp"
 
 namespace lamina::decoupling {
 
@@ -44,13 +44,13 @@ struct UncutRegions {
 /// Cuts every subdomain of more than about 1.5 x `pieces_target` triangles in two, and the halves again, along the good
 /// separators that search_separator() finds. A subdomain without one stays whole. Holes are joined to the outer loop
 /// first. Adds the separators to the lines. The result does not depend on the number of threads.
-std::vector<EstimatedBorder> cut_to_size(Lines& lines, UncutRegions regions, const SeparatorSpacing& spacing,
+std::vector<EstimatedBorder> cut_to_size(Lines& lines, UncutRegions regions, const SizeField& size,
                                          double pieces_target);
 
 /// Collective: returns what cut_to_size() returns. The processes divide the search for separators among themselves. The
 /// regions round the bodies are cut by the first processes; the others call `make`, if it is given, until this is done, for
 /// pieces that they keep. Precondition: all other arguments are the same everywhere.
-std::vector<EstimatedBorder> cut_to_size_together(Lines& lines, UncutRegions regions, const SeparatorSpacing& spacing,
+std::vector<EstimatedBorder> cut_to_size_together(Lines& lines, UncutRegions regions, const SizeField& size,
                                                   double pieces_target, Ranks& ranks, const MakeTrapezoid& make);
 
 }  // namespace lamina::decoupling

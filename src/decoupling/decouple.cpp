@@ -59,15 +59,15 @@ struct UncutSkeleton {
 };
 
 /// Divides all lines and numbers their vertices.
-void number_lines(Lines& lines, const SeparatorSpacing& spacing) {
+void number_lines(Lines& lines, const SizeField& size) {
     core::parallel_for(lines.size(), 1, [&](std::size_t i, std::size_t) {
-        if (const auto line = static_cast<std::uint32_t>(i); !lines.is_loop(line)) lines.divide(line, spacing);
+        if (const auto line = static_cast<std::uint32_t>(i); !lines.is_loop(line)) lines.divide(line, size);
     });
     for (std::uint32_t line = 0; line < lines.size(); ++line)
-        if (!lines.is_loop(line)) lines.number(line, lines.divide(line, spacing));
+        if (!lines.is_loop(line)) lines.number(line, lines.divide(line, size));
 }
 
-UncutSkeleton draw_skeleton(const OuterRegion& region, const SeparatorSpacing& spacing, Ranks* ranks) {
+UncutSkeleton draw_skeleton(const OuterRegion& region, const SizeField& size, Ranks* ranks) {
     const FarField& far_field = region.far_field;
     const bool is_box = far_field.shape == FarFieldShape::box;
     const Box outermost = inscribed_box(far_field);
@@ -81,12 +81,12 @@ UncutSkeleton draw_skeleton(const OuterRegion& region, const SeparatorSpacing& s
         outermost_lines = add_rings(uncut.skeleton, rings, boxes, !is_box);
     }
     if (ranks != nullptr) {
-        uncut.skeleton.number_together(spacing, *ranks);
+        uncut.skeleton.number_together(size, *ranks);
     } else {
-        number_lines(lines, spacing);
+        number_lines(lines, size);
     }
     if (!is_box) {
-        uncut.far_field = add_far_field_outline(uncut.skeleton, far_field, spacing);
+        uncut.far_field = add_far_field_outline(uncut.skeleton, far_field, size);
         uncut.far_field_lines.push_back(static_cast<std::uint32_t>(lines.size() - 1));
         return uncut;
     }
@@ -102,8 +102,8 @@ UncutSkeleton draw_skeleton(const OuterRegion& region, const SeparatorSpacing& s
 
 CutRegion cut_region(const OuterRegion& region, Ranks* ranks, const BesideCuts& beside) {
     if (ranks != nullptr && ranks->size() == 1) ranks = nullptr;
-    const SeparatorSpacing spacing{region.size, region.options.separators};
-    auto [skeleton, far_field_edges, far_field_lines] = draw_skeleton(region, spacing, ranks);
+    const SizeField& size = region.size;
+    auto [skeleton, far_field_edges, far_field_lines] = draw_skeleton(region, size, ranks);
     if (beside.once_numbered) beside.once_numbered();
     UncutRegions uncut{skeleton.trace(), skeleton.rings};
     CutRegion cut{std::move(skeleton.lines),
@@ -115,9 +115,9 @@ CutRegion cut_region(const OuterRegion& region, Ranks* ranks, const BesideCuts& 
     const double target = region.options.pieces_target;
     if (ranks != nullptr) {
         if (beside.make) cut.lines.gather_points();
-        cut.borders = cut_to_size_together(cut.lines, std::move(uncut), spacing, target, *ranks, beside.make);
+        cut.borders = cut_to_size_together(cut.lines, std::move(uncut), size, target, *ranks, beside.make);
     } else {
-        cut.borders = cut_to_size(cut.lines, std::move(uncut), spacing, target);
+        cut.borders = cut_to_size(cut.lines, std::move(uncut), size, target);
     }
     cut.separator_vertices = cut.lines.vertices() - region.points.size();
     return cut;
@@ -128,17 +128,17 @@ LineBorder CutRegion::border(std::size_t subdomain) const {
     return border.border ? *border.border : rings.border(border.trapezoid, lines);
 }
 
-Subdomain make_subdomain(const LineBorder& line_border, const WorkEstimate* known, Lines& lines,
-                         const SeparatorSpacing& spacing, const RefineOptions& refine) {
-    LocalBorder border = localize(line_border, lines, spacing);
-    const WorkEstimate estimate = known != nullptr ? *known : BorderTriangulation(border, spacing.size).estimate();
+Subdomain make_subdomain(const LineBorder& line_border, const WorkEstimate* known, Lines& lines, const SizeField& size,
+                         const RefineOptions& refine) {
+    LocalBorder border = localize(line_border, lines, size);
+    const WorkEstimate estimate = known != nullptr ? *known : BorderTriangulation(border, size).estimate();
     Box box;
     for (const Point p : border.points) box.include(p);
     Subdomain subdomain;
     subdomain.points = std::move(border.points);
     subdomain.global = std::move(border.global);
     subdomain.segments = std::move(border.segments);
-    subdomain.size = spacing.size.restricted_to(box);
+    subdomain.size = size.restricted_to(box);
     subdomain.refine = refine;
     subdomain.refine.lattice = refine.lattice && estimate.lattice;
     subdomain.refine.expected_triangles = static_cast<std::size_t>(estimate.triangles);
@@ -157,10 +157,9 @@ double estimate_triangles(std::span<const Point> points, std::span<const std::ve
     near_body_box(box_round(points, borders), inscribed_box(far_field), far_field);  // throws where there is no room
     Skeleton skeleton = start_skeleton(points, borders);
     skeleton.add_new_loop(outline_of(far_field));
-    const SeparatorSpacing spacing{size, SeparatorRule::equidistributed};
     double triangles = 0;
     for (const LineBorder& border : skeleton.trace())
-        triangles += estimate_undivided(localize(border, skeleton.lines, spacing), size);
+        triangles += estimate_undivided(localize(border, skeleton.lines, size), size);
     return triangles;
 }
 
@@ -170,11 +169,10 @@ Decoupling decouple(std::span<const Point> points, std::span<const std::vector<V
     validate(options);
     validate(refine);
     CutRegion cut = cut_region({points, borders, size, far_field, options});
-    const SeparatorSpacing spacing{size, options.separators};
     Decoupling result;
     result.subdomains.resize(cut.borders.size());
     core::parallel_for(cut.borders.size(), 1, [&](std::size_t i, std::size_t) {
-        result.subdomains[i] = make_subdomain(cut.border(i), cut.borders[i].estimate.get(), cut.lines, spacing, refine);
+        result.subdomains[i] = make_subdomain(cut.border(i), cut.borders[i].estimate.get(), cut.lines, size, refine);
     });
     result.separator_vertices = cut.separator_vertices;
     result.points.resize(cut.lines.vertices());

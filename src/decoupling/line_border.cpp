@@ -107,13 +107,13 @@ LineVertex vertex_of(const LineBorder& border, LoopVertex at, const Lines& lines
     return {};
 }
 
-LocalBorder localize(const LineBorder& border, Lines& lines, const SeparatorSpacing& spacing) {
+LocalBorder localize(const LineBorder& border, Lines& lines, const SizeField& size) {
     LocalBorder local;
     std::vector<IdRun> runs;
     std::vector<std::size_t> runs_end;  // per loop
     for (const LineLoop& loop : border.loops) {
         for (const Stretch& stretch : loop.stretches) {
-            lines.divide(stretch.line, spacing);
+            lines.divide(stretch.line, size);
             for_runs(stretch, lines, [&](const IdRun& run) { runs.push_back(run); });
         }
         runs_end.push_back(runs.size());

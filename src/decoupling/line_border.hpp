@@ -59,7 +59,7 @@ struct LocalBorder {
 };
 
 /// Numbers the vertices of a border in ascending order of their ids. Divides its lines.
-LocalBorder localize(const LineBorder& border, Lines& lines, const SeparatorSpacing& spacing);
+LocalBorder localize(const LineBorder& border, Lines& lines, const SizeField& size);
 
 /// The two parts of a border that was split.
 struct BorderHalves {

@@ -7,6 +7,8 @@
 
 #include <lamina/error.hpp>
 
+#include "decoupling/separators.hpp"
+
 namespace lamina::decoupling {
 
 struct Lines::Group {
@@ -191,12 +193,12 @@ Point Lines::point(std::uint32_t number, std::uint32_t place) const {
     return line.interior[place - 1];
 }
 
-std::size_t Lines::divide(std::uint32_t number, const SeparatorSpacing& spacing) {
+std::size_t Lines::divide(std::uint32_t number, const SizeField& size_field) {
     Line& line = at(number);
     std::call_once(line.divided, [&] {
         for (const LineVertex& end : {line.from, line.to})
-            if (end.line != LineVertex::no_line) divide(end.line, spacing);
-        std::vector<Point> interior = divide_separator(point(line.from), point(line.to), spacing, line.min_segments);
+            if (end.line != LineVertex::no_line) divide(end.line, size_field);
+        std::vector<Point> interior = divide_separator(point(line.from), point(line.to), size_field, line.min_segments);
         // Whoever has numbered its vertices has divided it in the same way.
         const std::uint32_t told = segments(number);
         if (told != 0 && interior.size() + 1 != told)
@@ -209,7 +211,7 @@ std::size_t Lines::divide(std::uint32_t number, const SeparatorSpacing& spacing)
     return line.interior.size();
 }
 
-void Lines::divide_between(VertexId begin, VertexId end, const SeparatorSpacing& spacing) {
+void Lines::divide_between(VertexId begin, VertexId end, const SizeField& size_field) {
     // The first line that ends behind `begin`.
     std::size_t low = 0, high = size();
     while (low < high) {
@@ -220,7 +222,7 @@ void Lines::divide_between(VertexId begin, VertexId end, const SeparatorSpacing&
             high = middle;
     }
     for (auto i = static_cast<std::uint32_t>(low); i < size() && first_inside(i) < end; ++i)
-        if (!is_loop(i)) divide(i, spacing);
+        if (!is_loop(i)) divide(i, size_field);
 }
 
 void Lines::store(std::uint32_t number, std::span<Point> points) const {

@@ -16,9 +16,9 @@
 #include <lamina/export.hpp>
 #include <lamina/ids.hpp>
 #include <lamina/point.hpp>
+#include <lamina/sizing.hpp>
 
 #include "core/scratch_memory.hpp"
-#include "decoupling/separators.hpp"
 
 namespace lamina::decoupling {
 
@@ -110,11 +110,11 @@ public:
 
     /// Divides a line, unless that was done. Returns the number of vertices inside it. Any thread may call it. Throws
     /// MeshError where it has another number of vertices than number() was told.
-    std::size_t divide(std::uint32_t line, const SeparatorSpacing& spacing);
+    std::size_t divide(std::uint32_t line, const SizeField& size_field);
     /// Returns whether the places of the vertices of a line are known. Precondition: no other thread divides lines.
     bool is_divided(std::uint32_t line) const { return !at(line).interior.empty(); }
     /// Divides the lines that have vertices from `begin` to before `end` inside.
-    void divide_between(VertexId begin, VertexId end, const SeparatorSpacing& spacing);
+    void divide_between(VertexId begin, VertexId end, const SizeField& size_field);
     /// Returns where a vertex lies. Precondition: its line is divided.
     Point point(std::uint32_t line, std::uint32_t place) const;
     Point point(const LineVertex& v) const {

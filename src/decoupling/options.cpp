@@ -1,4 +1,4 @@
-// The tables of the options of the far field and of the decoupling, and the text of outlines.
+// The table of the options of the far field, the checks of those of the decoupling, and the text of outlines.
 #include <lamina/decoupling.hpp>
 
 #include <fmt/format.h>
@@ -49,17 +49,6 @@ OptionTable<FarFieldOptions> make_far_field_table() {
     return table.take();
 }
 
-OptionTable<DecouplingOptions> make_decoupling_table() {
-    OptionTableBuilder<DecouplingOptions> table("Outer region");
-    table.choice(
-        "separators", "how borders between pieces are divided",
-        Choices<SeparatorRule>{{"equidistributed", SeparatorRule::equidistributed}, {"k-rule", SeparatorRule::k_rule}},
-        member_at(&DecouplingOptions::separators));
-    table.number("pieces-target", "TRIANGLES", "triangles per piece, about", numbers_from_to(100, 1e9),
-                 member_at(&DecouplingOptions::pieces_target));
-    return table.take();
-}
-
 /// Throws OptionError unless the outline is a convex polygon, counter-clockwise.
 void require_convex(std::span<const Point> outline) {
     const std::size_t n = outline.size();
@@ -82,11 +71,6 @@ const OptionTable<FarFieldOptions>& far_field_option_table() {
     return table;
 }
 
-const OptionTable<DecouplingOptions>& decoupling_option_table() {
-    static const OptionTable<DecouplingOptions> table = make_decoupling_table();
-    return table;
-}
-
 void validate(const FarFieldOptions& options) {
     require_in_range(far_field_option_table(), options);
     if (options.shape == FarFieldShape::outline) require_convex(options.outline);
@@ -94,7 +78,9 @@ void validate(const FarFieldOptions& options) {
         throw OptionError(options.tunnel ? "tunnel" : "ground", "needs the far field to be a box");
 }
 
-void validate(const DecouplingOptions& options) { require_in_range(decoupling_option_table(), options); }
+void validate(const DecouplingOptions& options) {
+    require_in_range(numbers_from_to(100, 1e9), options.pieces_target, "pieces_target");
+}
 
 std::vector<Point> parse_outline(const std::string& text) {
     const std::vector<double> numbers = core::parse_numbers(text, ',');

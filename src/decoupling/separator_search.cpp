@@ -17,6 +17,7 @@
 #include "core/box_tree.hpp"
 #include "core/parallel.hpp"
 #include "core/segments.hpp"
+#include "decoupling/separators.hpp"
 
 namespace lamina::decoupling {
 
@@ -65,8 +66,7 @@ Box circle_box(Point a, Point b, double share) {
 /// The search in one subdomain.
 class SeparatorSearch {
 public:
-    SeparatorSearch(LocalBorder border, const SeparatorSpacing& spacing)
-        : border_(std::move(border), spacing.size), spacing_(spacing), size_(spacing.size) {}
+    SeparatorSearch(LocalBorder border, const SizeField& size) : border_(std::move(border), size), size_(size) {}
 
     SearchResult run(double pieces_target) {
         SearchResult result;
@@ -173,7 +173,7 @@ private:
     std::optional<std::vector<Point>> divide(const CandidateLine& line) const {
         if (!border_.sees(line.from, line.to)) return std::nullopt;
         const Point p = border_.point(line.from), q = border_.point(line.to);
-        std::vector<Point> interior = divide_separator(p, q, spacing_);
+        std::vector<Point> interior = divide_separator(p, q, size_);
         const bool joins = line.from.loop != line.to.loop;
         if (interior.size() + 1 < (joins ? min_joining_segments : min_separator_segments)) return std::nullopt;
         if (!is_like_edges_at(line.from, distance(p, interior.front())) ||
@@ -214,7 +214,6 @@ private:
     }
 
     BorderTriangulation border_;
-    const SeparatorSpacing& spacing_;
     const SizeField& size_;
     std::vector<LoopVertex> edges_;  ///< all border edges, each from this vertex to the next
     core::BoxTree edge_tree_{{}};    ///< the boxes round their diametral circles
@@ -222,8 +221,8 @@ private:
 
 }  // namespace
 
-SearchResult search_separator(LocalBorder border, const SeparatorSpacing& spacing, double pieces_target) {
-    return SeparatorSearch(std::move(border), spacing).run(pieces_target);
+SearchResult search_separator(LocalBorder border, const SizeField& size, double pieces_target) {
+    return SeparatorSearch(std::move(border), size).run(pieces_target);
 }
 
 }  // namespace lamina::decoupling

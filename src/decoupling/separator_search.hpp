@@ -5,10 +5,10 @@
 #include <vector>
 
 #include <lamina/point.hpp>
+#include <lamina/sizing.hpp>
 
 #include "decoupling/border_triangulation.hpp"
 #include "decoupling/line_border.hpp"
-#include "decoupling/separators.hpp"
 
 namespace lamina::decoupling {
 
@@ -35,6 +35,6 @@ struct SearchResult {
 /// - its first and last segments are about as long as the border edges beside them,
 /// - the diametral circles of its segments hold no vertex of the border, and
 /// - its own vertices lie neither in diametral circles of border edges nor close to vertices of the border.
-SearchResult search_separator(LocalBorder border, const SeparatorSpacing& spacing, double pieces_target);
+SearchResult search_separator(LocalBorder border, const SizeField& size, double pieces_target);
 
 }  // namespace lamina::decoupling

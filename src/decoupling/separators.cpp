@@ -1,5 +1,5 @@
-// Sources: J. K. Pardue, thesis (2015), chapter 5, equation 1; L. Linardakis, N. Chrisochoides, Graded Delaunay
-// decoupling method for parallel guaranteed quality planar mesh generation, SIAM J. Sci. Comput. 30 (2008).
+// Source: L. Linardakis, N. Chrisochoides, Graded Delaunay decoupling method for parallel guaranteed quality planar mesh
+// generation, SIAM J. Sci. Comput. 30 (2008).
 #include "decoupling/separators.hpp"
 
 #include <algorithm>
@@ -48,54 +48,13 @@ std::vector<Point> equidistribute(const Curve& curve, double total, const SizeFi
     return points;
 }
 
-/// Returns k of equation 1 where the area A of triangles is that of the equilateral triangle of edge h.
-double k_value(double h) { return 0.5 * std::sqrt(equilateral_area * h * h / std::sqrt(2.0)); }
-
-/// Returns the number of segments that the k rule gives to a stretch between ends with these k values, or 0 where it
-/// gives none.
-double k_rule_count(double stretch, double k_u, double k_v) {
-    const double n = std::ceil(stretch / (2 * std::min(k_u, k_v)));
-    return n <= std::sqrt(3.0) * stretch / (2 * std::max(k_u, k_v)) ? n : 0;
-}
-
-/// Divides the line from u to v by the k rule. Precondition: h is no larger at u than at v.
-std::vector<Point> divide_by_k_rule(Point u, Point v, const SizeField& size, std::size_t min_segments) {
-    std::vector<Point> points;
-    const double total = distance(u, v);
-    const auto at = [&](double s) { return u + (s / total) * (v - u); };
-    double from = 0;
-    while (from < total) {
-        const double k_u = k_value(size(at(from)));
-        double stretch = total - from;
-        double n = k_rule_count(stretch, k_u, k_value(size(at(from + stretch))));
-        // A nearer end is chosen until there is a whole number in the range, or one segment is left.
-        while (n == 0 && stretch > 4 * k_u) {
-            stretch *= 0.9;
-            n = k_rule_count(stretch, k_u, k_value(size(at(from + stretch))));
-        }
-        if (n == 0) {
-            stretch = std::min(1.9 * k_u, total - from);
-            n = 1;
-        }
-        if (from == 0 && stretch == total) n = std::max(n, static_cast<double>(min_segments));
-        for (double i = 1; i <= n; ++i)
-            points.push_back(at(rounded_arc_length(from + stretch * (i / n), stretch / n, total)));
-        from += stretch;
-        // A remainder far below one segment is joined to the last one.
-        if (total - from < k_u / 4) break;
-    }
-    points.pop_back();
-    return points;
-}
-
 }  // namespace
 
-std::vector<Point> divide_separator(Point u, Point v, const SeparatorSpacing& spacing, std::size_t min_segments) {
+std::vector<Point> divide_separator(Point u, Point v, const SizeField& of_region, std::size_t min_segments) {
     Box box;
     box.include(u);
     box.include(v);
-    const SizeField size = spacing.size.restricted_to(box);
-    const SeparatorRule rule = spacing.rule;
+    const SizeField size = of_region.restricted_to(box);
     // Lines begin at the finer end, so that both directions give the same points. Ends of symmetric lines are equally
     // fine but for rounding, which must not decide.
     constexpr double rounding = 1e-6;
@@ -104,9 +63,7 @@ std::vector<Point> divide_separator(Point u, Point v, const SeparatorSpacing& sp
     const Point from = forward ? u : v, to = forward ? v : u;
     const double total = distance(from, to);
     std::vector<Point> points =
-        rule == SeparatorRule::k_rule
-            ? divide_by_k_rule(from, to, size, min_segments)
-            : equidistribute([&](double s) { return from + (s / total) * (to - from); }, total, size, min_segments);
+        equidistribute([&](double s) { return from + (s / total) * (to - from); }, total, size, min_segments);
     if (!forward) std::reverse(points.begin(), points.end());
     return points;
 }

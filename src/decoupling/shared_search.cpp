@@ -118,14 +118,14 @@ unsigned SearchDealer::deal(std::size_t vertices, unsigned process) {
     return process;
 }
 
-std::vector<SearchResult> search_together(Lines& lines, std::span<const DealtBorder> borders,
-                                          const SeparatorSpacing& spacing, double pieces_target, Ranks& ranks) {
+std::vector<SearchResult> search_together(Lines& lines, std::span<const DealtBorder> borders, const SizeField& size,
+                                          double pieces_target, Ranks& ranks) {
     std::vector<std::size_t> own;
     for (std::size_t i = 0; i < borders.size(); ++i)
         if (borders[i].process == ranks.rank()) own.push_back(i);
     std::vector<SearchResult> results(borders.size());
     core::parallel_for(own.size(), 1, [&](std::size_t i, std::size_t) {
-        results[own[i]] = search_separator(localize(*borders[own[i]].border, lines, spacing), spacing, pieces_target);
+        results[own[i]] = search_separator(localize(*borders[own[i]].border, lines, size), size, pieces_target);
     });
     Packer packer;
     for (const std::size_t i : own) pack_result(results[i], packer);
@@ -161,13 +161,13 @@ std::vector<std::size_t> region_shares(std::size_t regions, unsigned processes) 
     return shares;
 }
 
-void number_together(Lines& lines, std::span<const LineRun> runs, const SeparatorSpacing& spacing, Ranks& ranks) {
+void number_together(Lines& lines, std::span<const LineRun> runs, const SizeField& size, Ranks& ranks) {
     std::vector<std::uint32_t> own;
     for (const LineRun& run : runs)
         for (std::uint32_t line = run.begin; run.process == ranks.rank() && line < run.end; ++line) own.push_back(line);
-    core::parallel_for(own.size(), 1, [&](std::size_t i, std::size_t) { lines.divide(own[i], spacing); });
+    core::parallel_for(own.size(), 1, [&](std::size_t i, std::size_t) { lines.divide(own[i], size); });
     core::DifferencePacker numbers;
-    for (const std::uint32_t line : own) numbers.put(static_cast<std::uint32_t>(lines.divide(line, spacing)));
+    for (const std::uint32_t line : own) numbers.put(static_cast<std::uint32_t>(lines.divide(line, size)));
     Packer packer;
     packer.put(hash_of_lines(lines));
     packer.put_bytes(numbers.take());

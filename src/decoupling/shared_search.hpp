@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <lamina/ranks.hpp>
+#include <lamina/sizing.hpp>
 
 #include "core/difference_packing.hpp"
 #include "core/packing.hpp"
@@ -18,7 +19,6 @@
 #include "decoupling/lines.hpp"
 #include "decoupling/ring_regions.hpp"
 #include "decoupling/separator_search.hpp"
-#include "decoupling/separators.hpp"
 
 namespace lamina::decoupling {
 
@@ -95,8 +95,8 @@ private:
 /// Collective: returns what search_separator() finds in each border, but for the estimates of those that are cut, which
 /// count no more. Each process searches its own borders. Precondition: all arguments are the same everywhere, but for
 /// borders of others and for the lines that are divided.
-std::vector<SearchResult> search_together(Lines& lines, std::span<const DealtBorder> borders,
-                                          const SeparatorSpacing& spacing, double pieces_target, Ranks& ranks);
+std::vector<SearchResult> search_together(Lines& lines, std::span<const DealtBorder> borders, const SizeField& size,
+                                          double pieces_target, Ranks& ranks);
 
 /// Returns how many processes, the first ones, cut the regions round the bodies where there are so many others.
 unsigned cutting_processes(std::size_t others, unsigned processes);
@@ -107,6 +107,6 @@ std::vector<std::size_t> region_shares(std::size_t regions, unsigned processes);
 
 /// Collective: divides the lines of these runs, which are all but loops in ascending order, each by its process, and
 /// numbers their vertices. Throws MeshError where another process has other lines.
-void number_together(Lines& lines, std::span<const LineRun> runs, const SeparatorSpacing& spacing, Ranks& ranks);
+void number_together(Lines& lines, std::span<const LineRun> runs, const SizeField& size, Ranks& ranks);
 
 }  // namespace lamina::decoupling

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "decoupling/separators.hpp"
 #include "decoupling/shared_search.hpp"
 #include "decoupling/traced_border.hpp"
 
@@ -92,13 +93,13 @@ std::vector<LineBorder> Skeleton::trace() {
     return borders;
 }
 
-void Skeleton::number_together(const SeparatorSpacing& spacing, Ranks& ranks) {
+void Skeleton::number_together(const SizeField& size, Ranks& ranks) {
     rings.share(region_shares(rings.size(), ranks.size()));
     std::vector<LineRun> runs(rings.runs().begin(), rings.runs().end());
     if (rings.size() == 0)  // lines round the domain
         for (std::uint32_t line = 0; line < lines.size(); ++line)
             if (!lines.is_loop(line)) runs.push_back({line, line + 1, line % ranks.size()});
-    decoupling::number_together(lines, runs, spacing, ranks);
+    decoupling::number_together(lines, runs, size, ranks);
 }
 
 std::vector<Segment> edges_along(const Lines& lines, std::uint32_t line) {
@@ -114,17 +115,16 @@ std::vector<Segment> edges_along(const Lines& lines, std::uint32_t line) {
     return edges;
 }
 
-std::vector<Segment> add_far_field_outline(Skeleton& skeleton, const FarField& far_field,
-                                           const SeparatorSpacing& spacing) {
+std::vector<Segment> add_far_field_outline(Skeleton& skeleton, const FarField& far_field, const SizeField& size) {
     constexpr std::size_t min_segments_of_side = 3, min_segments_of_circle = 16;
     std::vector<Point> loop;
     if (far_field.shape == FarFieldShape::circle) {
-        loop = divide_circle(far_field.center, far_field.radius, spacing.size, min_segments_of_circle);
+        loop = divide_circle(far_field.center, far_field.radius, size, min_segments_of_circle);
     } else {
         for (std::size_t i = 0; i < far_field.outline.size(); ++i) {
             const Point u = far_field.outline[i], v = far_field.outline[(i + 1) % far_field.outline.size()];
             loop.push_back(u);
-            for (const Point p : divide_separator(u, v, spacing, min_segments_of_side)) loop.push_back(p);
+            for (const Point p : divide_separator(u, v, size, min_segments_of_side)) loop.push_back(p);
         }
     }
     return edges_along(skeleton.lines, skeleton.add_new_loop(std::move(loop)));

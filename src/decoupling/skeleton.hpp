@@ -8,11 +8,11 @@
 
 #include <lamina/decoupling.hpp>
 #include <lamina/ranks.hpp>
+#include <lamina/sizing.hpp>
 
 #include "decoupling/line_border.hpp"
 #include "decoupling/lines.hpp"
 #include "decoupling/ring_regions.hpp"
-#include "decoupling/separators.hpp"
 #include "decoupling/traced_border.hpp"
 
 namespace lamina::decoupling {
@@ -48,7 +48,7 @@ public:
     std::vector<LineBorder> trace();
     /// Collective: numbers the vertices inside all straight lines. A process divides the lines of those trapezoids
     /// that it will search, so far as no process before it does.
-    void number_together(const SeparatorSpacing& spacing, Ranks& ranks);
+    void number_together(const SizeField& size, Ranks& ranks);
 
 private:
     /// A line as an edge between corners, in one direction: a whole straight line, or a segment of a closed one.
@@ -69,7 +69,6 @@ private:
 std::vector<Segment> edges_along(const Lines& lines, std::uint32_t line);
 
 /// Adds the outline of a far field that is no box. Returns its edges, with the region on their left.
-std::vector<Segment> add_far_field_outline(Skeleton& skeleton, const FarField& far_field,
-                                           const SeparatorSpacing& spacing);
+std::vector<Segment> add_far_field_outline(Skeleton& skeleton, const FarField& far_field, const SizeField& size);
 
 }  // namespace lamina::decoupling

@@ -16,6 +16,8 @@ constexpr const char* layer_is_in_pieces =
 constexpr FormerOption table[] = {
     {"decomposition-depth", "", "", layer_is_in_pieces},
     {"leaf-vertices", "", "", layer_is_in_pieces},
+    {"pieces-target", "", "", "subdomains have about 50,000 triangles"},
+    {"separators", "", "", "borders between subdomains have edges as long as those of the triangles beside them"},
     {"options-as-markdown", "--help-all", "", "it describes all options, as docs/options.md does"},
 };
 

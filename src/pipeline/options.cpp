@@ -81,7 +81,6 @@ OptionTable<CaseOptions> make_table() {
     add_stage(far_field_option_table(), &CaseOptions::far_field, table);
     add_stage(sizing_option_table(), &CaseOptions::sizing, table);
     add_stage(refine_option_table(), &CaseOptions::refine, table);
-    add_stage(decoupling_option_table(), &CaseOptions::decoupling, table);
     for (const Option<CaseOptions>& option : pipeline_rows()) add_row(option, table);
     return table;
 }

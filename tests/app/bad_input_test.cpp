@@ -65,7 +65,7 @@ TEST(BadInput, NumbersOutOfRange) {
         {"--thickness", "-1"},    {"--layers", "0"},       {"--layers", "2.5"},         {"--layers", "-4"},
         {"--min-angle", "0"},     {"--min-angle", "33.1"}, {"--gradation", "0"},        {"--wall-size", "-0.1"},
         {"--far-size", "0"},      {"--threads", "-1"},     {"--threads", "many"},       {"--max-ray-angle", "0"},
-        {"--pieces-target", "0"}, {"--far-field", ""},     {"--growth", "1.2x"},        {"--layers", "25e-1"},
+        {"--max-triangles", "0"}, {"--far-field", ""},     {"--growth", "1.2x"},        {"--layers", "25e-1"},
         {"--threads", "1e"},      {"--threads", "1e400"},
     };
     for (const auto& option : wrong) expect_refused(folder, mesh_naca_with(option), usage, option.front().substr(2));

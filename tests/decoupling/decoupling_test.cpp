@@ -66,10 +66,8 @@ struct Bodies {
 };
 
 /// Decouples the region between the bodies and a box round a unit chord.
-Decoupling decouple_to(const Bodies& bodies, const SizeField& size, double far_field, double pieces_target,
-                       SeparatorRule rule = SeparatorRule::equidistributed) {
-    return decouple(bodies.points, bodies.borders, size, {FarFieldShape::box, {0.5, 0}, far_field},
-                    {rule, pieces_target});
+Decoupling decouple_to(const Bodies& bodies, const SizeField& size, double far_field, double pieces_target) {
+    return decouple(bodies.points, bodies.borders, size, {FarFieldShape::box, {0.5, 0}, far_field}, {pieces_target});
 }
 
 /// Refines every subdomain and checks the union from scratch: it must be valid, of the right area and globally
@@ -126,7 +124,7 @@ TEST(Separators, EquidistributedSegmentsFollowTheField) {
     const std::vector<SizeSource> sources{{{0, 0}, {0, 0}, 0.01}};
     const SizeField size(sources, {.gradation = 0.2}, {{-20, -20}, {20, 20}});
     const Point u{0.3, 0}, v{17, 11};
-    auto points = decoupling::divide_separator(u, v, {size, SeparatorRule::equidistributed});
+    auto points = decoupling::divide_separator(u, v, size);
     points.insert(points.begin(), u);
     points.push_back(v);
     for (std::size_t i = 0; i + 1 < points.size(); ++i) {
@@ -137,25 +135,9 @@ TEST(Separators, EquidistributedSegmentsFollowTheField) {
             EXPECT_LT(l / distance(points[i - 1], points[i]), 1.25);
         }
     }
-    auto back = decoupling::divide_separator(v, u, {size, SeparatorRule::equidistributed});
+    auto back = decoupling::divide_separator(v, u, size);
     std::reverse(back.begin(), back.end());
     EXPECT_TRUE(std::equal(back.begin(), back.end(), points.begin() + 1));
-}
-
-TEST(Separators, KRuleKeepsItsBoundsAtBothEndsOfEverySegment) {
-    const std::vector<SizeSource> sources{{{0, 0}, {0, 0}, 0.01}};
-    const SizeField size(sources, {.gradation = 0.1}, {{-20, -20}, {20, 20}});
-    const Point u{0.3, 0}, v{9, 4};
-    auto points = decoupling::divide_separator(u, v, {size, SeparatorRule::k_rule});
-    points.insert(points.begin(), u);
-    points.push_back(v);
-    ASSERT_GT(points.size(), 10u);
-    for (std::size_t i = 0; i + 2 < points.size(); ++i) {  // the last segment may be a remainder
-        const auto k = [&](Point p) { return 0.5 * std::sqrt(equilateral_area * size(p) * size(p) / std::sqrt(2.0)); };
-        const double l = distance(points[i], points[i + 1]);
-        EXPECT_LE(l, 2 * std::min(k(points[i]), k(points[i + 1])) * 1.08) << i;
-        EXPECT_GE(l, 2 * std::max(k(points[i]), k(points[i + 1])) / std::sqrt(3.0) * 0.92) << i;
-    }
 }
 
 TEST(SubdomainBorders, SquareWithHoleCutAndIslands) {
@@ -211,14 +193,6 @@ TEST(Decouple, UnionOfSubdomainsIsGloballyDelaunay) {
     }
     // Cutting costs few triangles.
     EXPECT_LT(double(count[3'000.0]), 1.06 * double(count[1e9]));
-}
-
-TEST(Decouple, KRuleIsGloballyDelaunay) {
-    Bodies bodies;
-    bodies.add(ellipse(160, 0.12));
-    const SizeField size = bodies.size(0.05, 20);
-    const Decoupling d = decouple_to(bodies, size, 20, 4000, SeparatorRule::k_rule);
-    expect_global_delaunay(bodies, d, 20);
 }
 
 TEST(Decouple, SeveralBodies) {
@@ -361,8 +335,7 @@ TEST(Decouple, DanglingLinesAreRefinedFromBothSides) {
             (s.points[on_far_field.index()].x < 1.6 ||
              std::abs(s.points[e.a.index()].y) < std::abs(s.points[on_far_field.index()].y)))
             on_far_field = e.a;
-    const auto line = decoupling::divide_separator(s.points[rear.index()], s.points[on_far_field.index()],
-                                                   {size, SeparatorRule::equidistributed}, 3);
+    const auto line = decoupling::divide_separator(s.points[rear.index()], s.points[on_far_field.index()], size, 3);
     ASSERT_GT(line.size(), 2u);
     VertexId before = rear;
     const auto add = [&](VertexId v) {

@@ -69,9 +69,9 @@ SizeField size_of(const CutCase& c) {
 }
 
 /// Returns all vertices, each where its line has it.
-std::vector<Point> points_of(decoupling::CutRegion& cut, const SizeField& size, SeparatorRule rule) {
+std::vector<Point> points_of(decoupling::CutRegion& cut, const SizeField& size) {
     for (std::uint32_t line = 0; line < cut.lines.size(); ++line)
-        if (!cut.lines.is_loop(line)) cut.lines.divide(line, {size, rule});
+        if (!cut.lines.is_loop(line)) cut.lines.divide(line, size);
     std::vector<Point> points(cut.lines.vertices());
     cut.lines.copy_points(points);
     return points;
@@ -103,16 +103,15 @@ std::size_t divided(const decoupling::CutRegion& cut) {
 }
 
 TEST(SharedCuts, AreThoseOfOneProcess) {
-    const DecouplingOptions defaults;
     for (const CutCase& c : cut_cases()) {
         SCOPED_TRACE(c.name);
         const SizeField size = size_of(c);
-        const DecouplingOptions options{defaults.separators, c.pieces_target};
+        const DecouplingOptions options{c.pieces_target};
         const decoupling::OuterRegion region{c.discs.points, c.discs.borders, size, c.far_field, options};
         decoupling::CutRegion alone = decoupling::cut_region(region);
         const std::size_t lines = alone.lines.size();
         EXPECT_EQ(divided(alone), lines);
-        const std::vector<Point> points = points_of(alone, size, options.separators);
+        const std::vector<Point> points = points_of(alone, size);
         EXPECT_EQ(alone.borders.size() > 10, c.name != "one piece") << alone.borders.size();
         for (const unsigned n : {1u, 2u, 3u, 7u}) {
             SCOPED_TRACE(n);
@@ -124,7 +123,7 @@ TEST(SharedCuts, AreThoseOfOneProcess) {
                                     if (n == 7 && lines > 40) {
                                         EXPECT_LT(divided(cut), 3 * lines / 4);
                                     }
-                                    EXPECT_EQ(points_of(cut, size, options.separators), points);
+                                    EXPECT_EQ(points_of(cut, size), points);
                                     bytes += ranks.traffic().bytes;
                                 }),
                       "");
@@ -155,7 +154,7 @@ protected:
 TEST(SharedCuts, LeaveTimeForPieces) {
     const CutCase c = cut_cases()[2];
     const SizeField size = size_of(c);
-    const DecouplingOptions options{DecouplingOptions{}.separators, c.pieces_target};
+    const DecouplingOptions options{c.pieces_target};
     const decoupling::OuterRegion region{c.discs.points, c.discs.borders, size, c.far_field, options};
     const decoupling::CutRegion alone = decoupling::cut_region(region);
     constexpr unsigned n = 7;
@@ -205,7 +204,7 @@ TEST(SharedCuts, AreRefusedWhereRanksDiffer) {
     const std::string line = run_ranks(3, [&](Ranks& ranks) {
         FarField far_field = c.far_field;
         if (ranks.rank() == 2) far_field.radius *= 0.99;
-        const DecouplingOptions options{DecouplingOptions{}.separators, c.pieces_target};
+        const DecouplingOptions options{c.pieces_target};
         decoupling::cut_region({c.discs.points, c.discs.borders, size, far_field, options}, &ranks);
     });
     EXPECT_NE(line.find("process 2 has cut the domain in another way"), std::string::npos) << line;
@@ -240,7 +239,7 @@ private:
 TEST(SharedCuts, EndOnAllRanksWhereOneOfTheCuttersFails) {
     const CutCase c = cut_cases().front();
     const SizeField size = size_of(c);
-    const DecouplingOptions options{DecouplingOptions{}.separators, c.pieces_target};
+    const DecouplingOptions options{c.pieces_target};
     constexpr unsigned n = 12, cutters = 3;
     for (unsigned failing = 0; failing < cutters; ++failing) {
         SCOPED_TRACE(failing);

@@ -18,11 +18,11 @@ import sys
 import tempfile
 
 CASES = [
-    ("layers, many pieces", "mesh.su2", ["naca:0012:80", "--far-field", "10", "--pieces-target", "1500"]),
-    ("quads", "mesh.vtu", ["naca:4412:80", "--far-field", "10", "--pieces-target", "1500", "--layer-topology", "quads"]),
+    ("layers, many pieces", "mesh.su2", ["naca:0012:80", "--far-field", "10", "--gradation", "0.008"]),
+    ("quads", "mesh.vtu", ["naca:4412:80", "--far-field", "10", "--gradation", "0.01", "--layer-topology", "quads"]),
     ("two elements, no layer", "mesh.su2",
      ["naca:2412:60", "naca:0012:40", "--transform", "naca0012:scale:0.3", "--transform", "naca0012:shift:1.2,-0.1",
-      "--preset", "euler", "--far-field", "10", "--pieces-target", "3000"]),
+      "--preset", "euler", "--far-field", "10", "--gradation", "0.015"]),
 ]
 
 REFUSALS = [
@@ -70,6 +70,7 @@ def compare(programs, ranks, folder):
         alone = programs.run(0, [*base, "--stream"], folder)
         programs.expect(alone.returncode == 0, f"{name}: {alone.stderr}")
         expected, expected_facts = output.read_bytes(), facts(report)
+        programs.expect(expected_facts["pieces"]["inviscid"] >= 10, f"{name}: too few pieces for several processes")
         for n in ranks:
             for more in ([], ["--stream"]) if n > 1 else (["--stream"],):
                 output.unlink(missing_ok=True)

@@ -85,16 +85,16 @@ TEST(Pieces, AnyTargetGivesASoundMesh) {
     EXPECT_GT(before, 40u);
 }
 
-TEST(Pieces, KRule) {
-    for (double target : {1e9, 5'000.0, 1'000.0}) {
-        SCOPED_TRACE(target);
-        CaseOptions options = thesis_options();
-        options.decoupling.separators = SeparatorRule::k_rule;
-        options.decoupling.pieces_target = target;
-        const MeshResult result = mesh_of({naca("0012", 200)}, options);
-        expect_sound(result, options);
-        // The rule makes segments that are shorter than the border's edges that they meet, so a few points are refused.
-        EXPECT_LE(result.refinement.oversized, 5u);
+/// Wright 1903 in pieces smaller than those of the program, which tests/golden has.
+TEST(Pieces, SmallOnesKeepTheirHash) {
+    CaseOptions options;
+    options.layer.enabled = false;
+    options.decoupling.pieces_target = 5'000;
+    options.refine.min_angle_deg = 28;
+    for (const unsigned threads : {1, 2, 5}) {
+        options.threads = threads;
+        const MeshResult result = generate_mesh({LAMINA_SOURCE_DIR "/examples/thesis/wright1903.dat"}, options);
+        EXPECT_EQ(mesh_hash(result.mesh), "8bb10bc8102ca5e892c0ad0d792f8f81") << threads << " threads";
     }
 }
 

@@ -173,7 +173,7 @@ def test_warnings_are_data():
 
 def test_promised_angles_or_no_mesh(repository):
     """The program and the package refuse the same meshes."""
-    options = {"min_angle": 33, "pieces_target": 100, "gradation": 1.0}
+    options = {"min_angle": 33, "gradation": 1.0}
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         made = lamina.mesh(lamina.naca("0030", 12), surface="keep", allow_defects=True, **options)

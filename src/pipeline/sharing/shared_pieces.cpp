@@ -78,13 +78,13 @@ void require_same_places(SharedDecoupling& shared, const SharedFindings& found) 
 }  // namespace
 
 SharedDecoupling::SharedDecoupling(decoupling::CutRegion cut_region, const SizeField& of_region,
-                                   SeparatorRule of_separators, const RefineOptions& options)
-    : cut(std::move(cut_region)), size(of_region), rule(of_separators), refine(options) {
+                                   const RefineOptions& options)
+    : cut(std::move(cut_region)), size(of_region), refine(options) {
     cut.lines.gather_points();
 }
 
 void SharedDecoupling::place(std::size_t begin, std::size_t end) {
-    cut.lines.divide_between(VertexId{begin}, VertexId{end}, {size, rule});
+    cut.lines.divide_between(VertexId{begin}, VertexId{end}, size);
 }
 
 void SharedDecoupling::place(std::span<const Segment> edges) {
@@ -128,7 +128,6 @@ std::unordered_set<std::size_t> PieceMaker::number_trapezoids(std::span<const de
 std::unique_ptr<SharedDecoupling> cut_and_deal(const decoupling::OuterRegion& region, const RefineOptions& refine,
                                                PieceMaker& maker, Ranks& ranks,
                                                const std::function<void()>& before_pieces) {
-    const SeparatorRule rule = region.options.separators;
     core::BusyTimes times;  // these pieces count as a part of the decoupling
     const auto once_numbered = [&] {
         ranks.reset_counter();
@@ -136,11 +135,11 @@ std::unique_ptr<SharedDecoupling> cut_and_deal(const decoupling::OuterRegion& re
     };
     const auto make = [&](std::uint32_t trapezoid, const decoupling::LineBorder& border,
                           const decoupling::WorkEstimate& estimate, decoupling::Lines& lines) {
-        Subdomain subdomain = decoupling::make_subdomain(border, &estimate, lines, {region.size, rule}, refine);
+        Subdomain subdomain = decoupling::make_subdomain(border, &estimate, lines, region.size, refine);
         maker.make(trapezoid, std::move(subdomain), border_chain(border, lines).edges, lines.gathered(), times);
     };
     auto shared = std::make_unique<SharedDecoupling>(decoupling::cut_region(region, &ranks, {once_numbered, make}),
-                                                     region.size, rule, refine);
+                                                     region.size, refine);
     const std::unordered_set<std::size_t> made = maker.number_trapezoids(shared->cut.borders, ranks.rank());
     shared->deal = deal_pieces(shared->cut.borders, ranks.rank(), ranks.size());
     std::erase_if(shared->deal.own, [&](std::size_t piece) { return made.count(piece) != 0; });
@@ -154,7 +153,7 @@ HeldPieces take_and_refine(SharedDecoupling& shared, PieceMaker& maker, core::Bu
     std::atomic<std::size_t> next_own = 0;
     const auto make_piece = [&](std::size_t number) {
         Subdomain subdomain = decoupling::make_subdomain(cut.border(number), cut.borders[number].estimate.get(),
-                                                         cut.lines, {shared.size, shared.rule}, shared.refine);
+                                                         cut.lines, shared.size, shared.refine);
         maker.make(number, std::move(subdomain), shared.chain(number).edges, shared.points(), times);
     };
     core::parallel_for(thread_count(), 1, [&](std::size_t, std::size_t) {

@@ -30,12 +30,11 @@ namespace lamina::pipeline {
 struct SharedDecoupling {
     decoupling::CutRegion cut;
     SizeField size;
-    SeparatorRule rule;
     RefineOptions refine;
     PieceDeal deal{};
     std::uint64_t outer_places = 0;  ///< on rank 0: sum of hash_of_places() over the far field
 
-    SharedDecoupling(decoupling::CutRegion cut, const SizeField& size, SeparatorRule rule, const RefineOptions& refine);
+    SharedDecoupling(decoupling::CutRegion cut, const SizeField& size, const RefineOptions& refine);
 
     std::size_t pieces() const { return cut.borders.size(); }
     /// Returns the number of vertices that no line of the decoupling has added.
