@@ -50,7 +50,7 @@ struct Element {
     /// Per point: its line in the file, or its number, from 1, among points in memory; 0 where lamina added the point.
     std::vector<std::size_t> lines;
     std::vector<std::string> repairs;  ///< repairs by the reader: "line 12: duplicate of line 11 removed (0.5, 0.1)"
-    std::vector<std::string> transformations;  ///< what transformed() and flipped() did, in order
+    std::vector<std::string> transformations;  ///< what transformed() did, in order
     std::vector<Warning> warnings;             ///< by the reader; their messages do not name the element
     std::vector<std::string> surface_notes;    ///< changes that prepare_surfaces() made to the points, and why
     /// Whether the points are many samples of a curve, exact or smoothed, of which prepare_surfaces() takes as many as a wall needs.
@@ -92,8 +92,7 @@ struct GeometryOptions {
     std::size_t naca_points = 0;
     bool close = false;        ///< whether open outlines are closed by straight edges, however long
     bool mirror_half = false;  ///< whether files hold one half of symmetric sections, which is mirrored
-    bool flip = false;         ///< whether the flow comes from the right: flipped()
-    std::vector<Transformation> transformations{};  ///< applied in this order, after the flip: transformed()
+    std::vector<Transformation> transformations{};  ///< applied in this order: transformed()
 };
 
 /// Returns the table of these options, with names, ranges and help.

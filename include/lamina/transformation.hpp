@@ -71,8 +71,4 @@ LAMINA_EXPORT std::string transformation_text(const Transformation& transformati
 /// overlap as a whole. Precondition: the outlines are simple and counter-clockwise.
 LAMINA_EXPORT Geometry transformed(Geometry geometry, std::span<const Transformation> transformations);
 
-/// Returns the geometry with left and right exchanged, for flow that comes from the right: x becomes the sum of the
-/// smallest and the largest x, minus x. The box round all elements stays.
-LAMINA_EXPORT Geometry flipped(Geometry geometry);
-
 }  // namespace lamina

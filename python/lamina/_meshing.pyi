@@ -43,9 +43,6 @@ def mesh(
     # complete symmetric sections of which the files hold one half, from nose to tail: the other half is its
     # mirror image
     mirror_half: bool | None = None,
-    # exchange left and right of the whole configuration, for flow that comes from the right; before any
-    # --transform
-    flip: bool | None = None,
     # change of an element, given by its name, or of all: scale:S[:X,Y], rotate:DEG[:X,Y] (counter-clockwise,
     # about the origin or X,Y), shift:DX,DY, mirror[:Y] (in a horizontal line), flap:DEG:X,Y (a plain flap with
     # its hinge at X,Y, downwards); may be given several times, in order
@@ -53,8 +50,8 @@ def mesh(
     # reference chord, in units of the input: what lengths in chords count; else the extent in x of the
     # configuration before --transform turns it; > 0
     chord: float | None = None,
-    # angle of attack, in degrees: the flow comes from the left and rises at this angle; nothing is turned
-    # (--flip is for flow from the right); >= -90 and <= 90 [0]
+    # angle of attack, in degrees: the flow comes from the left and rises at this angle; nothing is turned; >=
+    # -90 and <= 90 [0]
     alpha: float | None = None,
     # Reynolds number of the free stream, based on the chord; > 0
     reynolds: float | None = None,

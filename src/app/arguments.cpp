@@ -168,7 +168,7 @@ void refuse_second_values(CLI::Option& option) {
         "");
 }
 
-/// Adds these checks to all options. A flag has a value, too: --flip=false.
+/// Adds these checks to all options. A flag has a value, too: --close=false.
 void check_values(CLI::App& app) {
     for (CLI::App* command : app.get_subcommands({}))
         for (CLI::Option* option : command->get_options()) {

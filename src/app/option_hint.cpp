@@ -309,7 +309,7 @@ bool is_input(const std::string& word) {
 }  // namespace
 
 Hint hint_for_other_word(const std::string& command, const std::string& word) {
-    if (takes_mesh_options(command))
+    if (takes_mesh_options(command) || command == "info")
         if (const FormerOption* former = find_former_option(word)) return {"", advice_on_command_line(*former)};
     Hint hint = look_up(words_of_command(command), word);
     const bool one_hyphen = word.starts_with('-') && !word.starts_with("--");

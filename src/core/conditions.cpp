@@ -15,8 +15,7 @@ OptionTable<FlowConditions> make_table() {
                  "configuration before --transform turns it",
                  positive_numbers, member_at(&FlowConditions::chord));
     table.number("alpha", "DEG",
-                 "angle of attack, in degrees: the flow comes from the left and rises at this angle; nothing is turned "
-                 "(--flip is for flow from the right)",
+                 "angle of attack, in degrees: the flow comes from the left and rises at this angle; nothing is turned",
                  numbers_from_to(-90, 90), member_at(&FlowConditions::alpha_deg));
     table
         .number("reynolds", "RE", "Reynolds number of the free stream, based on the chord", positive_numbers,

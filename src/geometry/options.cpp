@@ -20,10 +20,6 @@ OptionTable<GeometryOptions> make_table() {
                "complete symmetric sections of which the files hold one half, from nose to tail: the other half is its "
                "mirror image",
                true, member_at(&GeometryOptions::mirror_half));
-    table.flag("flip",
-               "exchange left and right of the whole configuration, for flow that comes from the right; before any "
-               "--transform",
-               true, member_at(&GeometryOptions::flip));
     table.specs("transform", "ELEMENT:CHANGE",
                 "change of an element, given by its name, or of all: scale:S[:X,Y], rotate:DEG[:X,Y] "
                 "(counter-clockwise, about the origin or X,Y), shift:DX,DY, mirror[:Y] (in a horizontal line), "

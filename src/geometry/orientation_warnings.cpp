@@ -59,7 +59,7 @@ void warn_of_swapped_columns(Element& e, const Box& box) {
                                 box.height(), box.width(), e.file)});
 }
 
-void warn_of_reversed_flow(Element& e, const Box& box, double ratio, bool flip) {
+void warn_of_reversed_flow(Element& e, const Box& box, double ratio) {
     const auto nose = std::max_element(e.points.begin(), e.points.end(), lexicographically_less);
     e.warnings.push_back(
         {.code = WarningCode::reversed_flow,
@@ -67,26 +67,25 @@ void warn_of_reversed_flow(Element& e, const Box& box, double ratio, bool flip) 
          .number = ratio,
          .unit = "rear / front thickness",
          .message = fmt::format("its round nose is at x = {:.6g} and its thin tail at x = {:.6g}, but lamina "
-                                "expects flow in the direction of x; {}",
-                                box.upper.x, box.lower.x,
-                                flip ? "it is --flip that exchanged them: leave it out"
-                                     : "if the flow comes from the right, give --flip")});
+                                "expects flow in the direction of x; if the flow comes from the right, give "
+                                "--transform all:rotate:180 --transform all:mirror",
+                                box.upper.x, box.lower.x)});
 }
 
 }  // namespace
 
-void add_orientation_warnings(Geometry& geometry, bool flip) {
+void add_orientation_warnings(Geometry& geometry) {
     constexpr double min_upright = 2;   // height over length
     constexpr double min_reversed = 2;  // thickness near the rear over that near the front
     const Box all = bounding_box(geometry);
     const bool upright = all.height() > min_upright * all.width();
     for (Element& e : geometry.elements) {
-        if (e.file.starts_with(naca_prefix) && !flip) continue;
+        if (e.file.starts_with(naca_prefix)) continue;
         const Box box = core::bounding_box(e.points);
         if (upright && box.height() > min_upright * box.width()) {
             warn_of_swapped_columns(e, box);
         } else if (const double ratio = rear_to_front(e, box); ratio > min_reversed) {
-            warn_of_reversed_flow(e, box, ratio, flip);
+            warn_of_reversed_flow(e, box, ratio);
         }
     }
 }

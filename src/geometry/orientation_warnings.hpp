@@ -6,8 +6,7 @@
 namespace lamina::geometry {
 
 /// Adds warnings to the elements of files: "swapped_columns" where the configuration stands upright, "reversed_flow"
-/// where an element has its tail at the smaller x. `flip` says whether flipped() made the geometry, so that the flip is
-/// what may be wrong. Precondition: the outlines are simple.
-void add_orientation_warnings(Geometry& geometry, bool flip);
+/// where an element has its tail at the smaller x. Precondition: the outlines are simple.
+void add_orientation_warnings(Geometry& geometry);
 
 }  // namespace lamina::geometry

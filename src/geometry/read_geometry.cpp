@@ -157,11 +157,10 @@ Geometry make_geometry(std::vector<Element> elements, const GeometryOptions& opt
     if (elements.empty()) throw UsageError("no input given");
     Geometry geometry{std::move(elements)};
     name_elements(geometry.elements, options);
-    if (options.flip) geometry = flipped(std::move(geometry));
     geometry.unturned_box = unturned_box(geometry, options.transformations);
     geometry = transformed(std::move(geometry), options.transformations);
     check_simple(geometry);
-    add_orientation_warnings(geometry, options.flip);
+    add_orientation_warnings(geometry);
     return geometry;
 }
 

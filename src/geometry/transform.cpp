@@ -127,15 +127,4 @@ Geometry transformed(Geometry geometry, std::span<const Transformation> transfor
     return geometry;
 }
 
-Geometry flipped(Geometry geometry) {
-    const Box box = bounding_box(geometry);
-    const double sum = box.lower.x + box.upper.x;
-    for (Element& e : geometry.elements) {
-        map_points(e, [&](Point p) { return Point{sum - p.x, p.y}; });
-        reverse_order(e);
-        e.transformations.push_back(fmt::format("left and right exchanged: x is now {} - x", sum));
-    }
-    return geometry;
-}
-
 }  // namespace lamina

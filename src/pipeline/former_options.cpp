@@ -14,6 +14,8 @@ constexpr const char* layer_is_in_pieces =
     "the program chooses the pieces of the layer, which never change its triangles";
 
 constexpr FormerOption table[] = {
+    {"flip", "--transform all:rotate:180 --transform all:mirror", "transform = [\"all:rotate:180\", \"all:mirror\"]",
+     "they exchange left and right"},
     {"decomposition-depth", "", "", layer_is_in_pieces},
     {"leaf-vertices", "", "", layer_is_in_pieces},
     {"pieces-target", "", "", "subdomains have about 50,000 triangles"},

@@ -137,7 +137,7 @@ TEST(BadInput, OneValueGivenTwice) {
     expect_refused(folder,
                    {"batch", "naca:0012", "-o", "{name}_{alpha}.su2", "--sweep", "alpha=1,2", "--sweep", "alpha=3"},
                    usage, "'alpha' is swept twice");
-    expect_refused(folder, mesh_naca_with({"--flip", "--flip=false"}), usage, "--flip: it holds one value");
+    expect_refused(folder, mesh_naca_with({"--close", "--close=false"}), usage, "--close: it holds one value");
     // The same value may be given again, however it is written.
     EXPECT_EQ(run_lamina(folder, {"mesh", "naca:0012", "--alpha", "4", "--alpha", "4", "--alpha", "4.0", "--quiet",
                                   "--quiet", "--dump-config"})

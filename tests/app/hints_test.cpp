@@ -164,6 +164,7 @@ TEST(Hints, FormerOptionsNameWhatServesInTheirPlace) {
                 expect_refused(folder, {command, "naca:0012", "-o", "a.su2", "--" + name + value}, usage,
                                "unknown option --" + name + value + ": " + given + reason);
         expect_refused(folder, {"mesh", "naca:0012", "-o", "a.su2", "--" + name, "5"}, usage, given + reason);
+        expect_refused(folder, {"info", "naca:0012", "--" + name}, usage, given + reason);
         expect_refused(folder, {"batch", "naca:0012", "-o", "a.su2", "--sweep", name + "=1,2"}, usage, given + reason);
 
         std::string key = name;

@@ -1,4 +1,4 @@
-// --transform and --flip: from the command line and case files to the mesh.
+// --transform: from the command line and case files to the mesh.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -58,7 +58,7 @@ TEST(Transform, UnitsDoNotChangeTheMesh) {
     EXPECT_NE(report["hash"], doubled["hash"]);
 }
 
-TEST(Transform, AFlipMakesTheMeshOfTheSectionThatStandsRight) {
+TEST(Transform, ASectionForFlowFromTheRightIsTurnedToTheMeshOfTheOneThatStandsRight) {
     const TemporaryFolder folder;
     const std::string straight =
                           "1 0\n0.75 0.0625\n0.5 0.125\n0.25 0.125\n0.0625 0.0625\n0 0\n0.0625 -0.0625\n"
@@ -68,9 +68,11 @@ TEST(Transform, AFlipMakesTheMeshOfTheSectionThatStandsRight) {
                           "0.75 -0.09375\n0.5 -0.0625\n0.25 -0.03125\n0 0\n";
     folder.write("straight.dat", straight);
     folder.write("reversed.dat", reversed);
-    const Json right = mesh_with(folder, {"straight.dat"}), flipped = mesh_with(folder, {"reversed.dat", "--flip"});
-    ASSERT_TRUE(right.is_object() && flipped.is_object());
-    EXPECT_EQ(right["hash"], flipped["hash"]);
+    const Json right = mesh_with(folder, {"straight.dat"}),
+               turned = mesh_with(folder,
+                                  {"reversed.dat", "--transform", "all:rotate:180:0.5,0", "--transform", "all:mirror"});
+    ASSERT_TRUE(right.is_object() && turned.is_object());
+    EXPECT_EQ(right["hash"], turned["hash"]);
 }
 
 TEST(Transform, BodiesOfAnyShapeArePlaced) {
@@ -88,10 +90,9 @@ TEST(Transform, BodiesOfAnyShapeArePlaced) {
 
 TEST(Transform, IsDumpedAndReadFromCaseFiles) {
     const TemporaryFolder folder;
-    const ProgramRun dump = run_lamina(folder, {"mesh", "naca:0012", "--flip", "--transform", "all:mirror",
-                                                "--transform", "airfoil:rotate:-5:0.25,0", "--dump-config"});
+    const ProgramRun dump = run_lamina(folder, {"mesh", "naca:0012", "--transform", "all:mirror", "--transform",
+                                                "airfoil:rotate:-5:0.25,0", "--dump-config"});
     ASSERT_EQ(dump.exit_code, 0) << dump.err;
-    EXPECT_NE(dump.out.find("\nflip = true\n"), std::string::npos) << dump.out;
     EXPECT_NE(dump.out.find("\ntransform = [ 'all:mirror:0', 'airfoil:rotate:-5:0.25,0' ]\n"), std::string::npos)
         << dump.out;
     folder.write("case.toml", dump.out);
@@ -99,6 +100,12 @@ TEST(Transform, IsDumpedAndReadFromCaseFiles) {
     folder.write("short.toml", "input = 'naca:0012:100'\ntransform = 'all:scale:1000'\n");
     const ProgramRun info = run_lamina(folder, {"info", "short.toml"});
     EXPECT_NE(info.out.find("x 0 to 1000,"), std::string::npos) << info.out << info.err;
+    const ProgramRun turned = run_lamina(folder, {"info", "naca:0012:100", "--transform", "all:rotate:180",
+                                                  "--transform", "all:shift:1,0", "--transform", "all:mirror"});
+    EXPECT_NE(turned.out.find("rotated by 180 degrees about (0, 0)"), std::string::npos) << turned.out << turned.err;
+    EXPECT_NE(turned.out.find("x 0 to 1,"), std::string::npos) << turned.out << turned.err;
+    expect_refused(folder, {"info", "naca:0012", "--transform", "all:rotate"}, usage,
+                   "option --transform: 'all:rotate'");
 }
 
 TEST(Transform, ErrorsNameTheOptionOrThePlace) {

@@ -106,7 +106,6 @@ TEST(Transformed, AnInverseGivesTheGivenPoints) {
         EXPECT_NO_THROW(check_simple({{once.elements[0]}}));
         EXPECT_NO_THROW(check_simple({{once.elements[1]}}));
     }
-    expect_near(flipped(flipped(given)), given, 1e-15);
 }
 
 TEST(Transformed, SizesAndDirectionsAreAsAsked) {
@@ -122,7 +121,9 @@ TEST(Transformed, SizesAndDirectionsAreAsAsked) {
     EXPECT_EQ(points("all:mirror:1"), (std::vector<Point>{{0, 2}, {0, 1}, {1, 1}, {1, 2}}));
     EXPECT_NEAR(points("all:rotate:30")[1].x, std::sqrt(0.75), 1e-15);
     EXPECT_NEAR(points("all:rotate:30")[1].y, 0.5, 1e-15);
-    EXPECT_EQ(flipped(given).elements[0].points, (std::vector<Point>{{1, 0}, {1, 1}, {0, 1}, {0, 0}}));
+    // Left and right are exchanged by half a turn and a mirror.
+    EXPECT_EQ(transformed_by(given, {"all:rotate:180:0.5,0", "all:mirror"}).elements[0].points,
+              (std::vector<Point>{{1, 0}, {1, 1}, {0, 1}, {0, 0}}));
 }
 
 TEST(Transformed, OrderCountsAndIsNoted) {
@@ -137,7 +138,8 @@ TEST(Transformed, OrderCountsAndIsNoted) {
 
 TEST(Transformed, LinesStayWithTheirPoints) {
     const Geometry given = fixtures::read(fixtures::selig);
-    for (const Geometry& mirrored : {transformed_by(given, {"airfoil:mirror"}), flipped(given)}) {
+    for (const Geometry& mirrored :
+         {transformed_by(given, {"airfoil:mirror"}), transformed_by(given, {"all:rotate:180", "all:mirror"})}) {
         const Element &a = given.elements[0], &b = mirrored.elements[0];
         ASSERT_EQ(a.lines.size(), b.lines.size());
         EXPECT_EQ(a.lines[0], b.lines[0]);
@@ -155,7 +157,7 @@ TEST(Transformed, WarningsKeepTheirPlaces) {
     Geometry given = shapes::geometry({shapes::box()});
     given.elements[0].warnings.push_back({.code = WarningCode::crossing_tail_cut, .at = Point{1, 0}});
     EXPECT_EQ(transformed_by(given, {"all:rotate:90"}).elements[0].warnings[0].at, (Point{0, 1}));
-    EXPECT_EQ(flipped(given).elements[0].warnings[0].at, (Point{0, 0}));
+    EXPECT_EQ(transformed_by(given, {"all:rotate:180:0.5,0", "all:mirror"}).elements[0].warnings[0].at, (Point{0, 0}));
 }
 
 TEST(Transformed, NumbersOutOfRangeAreRefused) {
@@ -221,7 +223,7 @@ TEST(ReadGeometry, ErrorsNamePlacesAfterTheTransformation) {
     EXPECT_THROW(read_geometry(inputs, options), InputError);
 }
 
-TEST(ReadGeometry, AFlipTurnsSectionsForFlowFromTheRight) {
+TEST(ReadGeometry, SectionsForFlowFromTheRightAreTurned) {
     std::string text = "reversed\n";
     for (const Point p : naca_airfoil("4412", 80).points)
         text += std::to_string(1 - p.x) + " " + std::to_string(p.y) + "\n";
@@ -229,18 +231,23 @@ TEST(ReadGeometry, AFlipTurnsSectionsForFlowFromTheRight) {
     const std::vector<std::string> inputs{folder.write("a.dat", text).string()};
     const Element given = read_geometry(inputs).elements[0];
     ASSERT_EQ(given.warnings.size(), 1u);
-    EXPECT_NE(given.warnings[0].message.find("give --flip"), std::string::npos);
+    const std::string& message = given.warnings[0].message;
+    EXPECT_NE(message.find("give --transform all:rotate:180 --transform all:mirror"), std::string::npos) << message;
     GeometryOptions options;
-    options.flip = true;
+    options.transformations = parsed_transformations({"all:rotate:180", "all:mirror"});
     const Geometry geometry = read_geometry(inputs, options);
     EXPECT_TRUE(geometry.elements[0].warnings.empty());
-    EXPECT_EQ(bounding_box(geometry).lower, bounding_box({{given}}).lower);
-    EXPECT_EQ(bounding_box(geometry).upper, bounding_box({{given}}).upper);
-    // A section that stands right is flipped wrongly, and lamina says which option did it.
-    const std::vector<std::string> right{"naca:4412:80"};
+    const Box before = bounding_box({{given}}), after = bounding_box(geometry);
+    EXPECT_EQ(after.lower, (Point{-before.upper.x, before.lower.y}));
+    EXPECT_EQ(after.upper, (Point{-before.lower.x, before.upper.y}));
+    // A section that stands right is turned wrongly.
+    std::string standing = "right\n";
+    for (const Point p : naca_airfoil("4412", 80).points)
+        standing += std::to_string(p.x) + " " + std::to_string(p.y) + "\n";
+    const std::vector<std::string> right{folder.write("b.dat", standing).string()};
     const Element wrong = read_geometry(right, options).elements[0];
     ASSERT_EQ(wrong.warnings.size(), 1u);
-    EXPECT_NE(wrong.warnings[0].message.find("leave it out"), std::string::npos);
+    EXPECT_EQ(wrong.warnings[0].code, WarningCode::reversed_flow);
 }
 
 }  // namespace

@@ -79,8 +79,8 @@ TEST(Describe, TellsMeasuresAndRepairs) {
 TEST(Describe, ListsTransformations) {
     const std::vector<std::string> naca{"naca:0012:200"};
     GeometryOptions options;
-    options.flip = true;
-    options.transformations = {parse_transformation("airfoil:scale:2"), parse_transformation("airfoil:rotate:3")};
+    options.transformations = {parse_transformation("all:mirror"), parse_transformation("airfoil:scale:2"),
+                               parse_transformation("airfoil:rotate:3")};
     const Geometry geometry = read_geometry(naca, options);
     const std::vector<std::string>& done = geometry.elements[0].transformations;
     ASSERT_EQ(done.size(), 3u);
