@@ -22,7 +22,7 @@ import numpy as np
 POINTS, LAYERS, COEFFICIENTS = 200, 30, 6
 OPTIONS = {
     "preset": "none", "first_height": 1e-5, "growth": 1.2, "layers": LAYERS, "layer_topology": "quads",
-    "surface_points": POINTS, "surface_points_exact": True, "fan_rays": 25,  # equal numbers on walls and rays
+    "exact_points": POINTS,  # equal numbers on walls and rays
 }
 
 

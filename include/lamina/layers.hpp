@@ -74,12 +74,16 @@ struct LayerOptions {
     /// more where rays converge.
     double max_ray_angle_deg = 5;
     CornerRays corners = CornerRays::fan;  ///< the rays at sharp convex corners
-    /// Number of rays of each fan. Every other vertex then has one ray, whatever the angle to its neighbours, so that
-    /// walls with equal numbers of vertices and fans have equal numbers of rays. Empty: as max_ray_angle_deg asks.
-    std::optional<std::uint32_t> fan_rays{};
+    /// Whether each fan has the rays of half a turn, equal_fan_parts() + 1. Every other vertex then has one ray, whatever
+    /// the angle to its neighbours, so that walls with equal numbers of vertices and fans have equal numbers of rays.
+    bool equal_fans = false;
     LayerTopology topology = LayerTopology::layered;  ///< how points are joined to cells
     bool wake_layers = false;                         ///< whether layers up to isotropy go on along LayerGrowth::wakes
 };
+
+/// Returns the number of parts of each fan with LayerOptions::equal_fans: as many as half a turn needs for none to exceed
+/// the largest angle between rays. Corners turn by less.
+LAMINA_EXPORT std::uint32_t equal_fan_parts(const LayerOptions& options);
 
 /// Returns the table of these options, with names, ranges and help.
 LAMINA_EXPORT const OptionTable<LayerOptions>& layer_option_table();

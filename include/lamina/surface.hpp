@@ -29,8 +29,8 @@ struct SurfaceOptions {
     /// Whether each element gets exactly `points` vertices. Makes `points` a promise; the edges are shared out among the
     /// stretches between corners by the integrals of ds / spacing. Needs `points`, and no treatment `keep`.
     bool exact_points = false;
-    /// Number of equal edges of the base of each element that has one (docs/glossary.md). Needs `exact_points`. Empty:
-    /// as for the other stretches.
+    /// Number of equal edges of the base of each element that has one (docs/glossary.md), with `exact_points`. Empty: a
+    /// fiftieth of `points`.
     std::optional<std::size_t> base_edges{};
     /// The points are smoothed first; each moves by at most this length. Empty: no smoothing.
     std::optional<Length> smooth{};

@@ -20,11 +20,10 @@ def mesh(
     surface: Literal["auto", "keep", "resample"] | None = None,
     # wall vertices per element, about; else as many as the ray angle requires; >= 3 and <= 1e+07
     surface_points: int | None = None,
-    # each element gets exactly so many wall vertices, or there is no mesh
-    surface_points_exact: bool | None = None,
-    # wall edges on the base of each blunt trailing edge, with surface-points-exact; else as the spacing asks;
-    # >= 1 and <= 1e+06
-    base_edges: int | None = None,
+    # for sections whose meshes are to have the same walls and layers by number: exactly N wall vertices on each
+    # element, or there is no mesh; BASE edges on the base of a blunt trailing edge (N / 50); one ray at each
+    # vertex, but at sharp corners a fan with the rays of half a turn, max-ray-angle apart; >= 3 and <= 1e+07
+    exact_points: str | float | Sequence[float] | None = None,
     # wall spacing at the leading edge at most, in lengths of the element; makes auto resample. Where the
     # curvature asks for less, it gets less; > 0
     spacing_le: float | None = None,
@@ -84,9 +83,6 @@ def mesh(
     max_ray_angle: float | None = None,
     # at sharp convex corners: a fan of rays, or refining rays beside the vertex [fan]
     corners: Literal["fan", "refine"] | None = None,
-    # rays of each fan, in place of those that max-ray-angle asks for; all other wall vertices have one ray, and
-    # there are no refining rays; >= 2 and <= 1000
-    fan_rays: int | None = None,
     # cells of the layer: Delaunay triangles, or the grid of rays and layers, cut or left whole [layered]
     layer_topology: Literal["delaunay", "layered", "quads"] | None = None,
     # whether layers up to isotropy go on behind trailing edges, along the wakes that the flow finds; needs

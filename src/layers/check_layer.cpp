@@ -152,7 +152,7 @@ private:
     /// Returns whether the angle from a ray of an element to the next one is small enough.
     bool is_ray_angle_allowed(double angle, std::size_t element) const {
         constexpr double rounding = 1e-9;
-        if (options_.fan_rays) return true;
+        if (options_.equal_fans) return true;
         const bool jagged = element < layer_.jagged.size() && layer_.jagged[element];
         if (!jagged) return std::abs(angle) <= core::radians(options_.max_ray_angle_deg) + rounding;
         return angle <= core::radians(std::max(options_.max_ray_angle_deg, max_jagged_ray_angle_deg)) + rounding;

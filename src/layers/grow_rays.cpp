@@ -71,7 +71,7 @@ RaySet rays_of(const Geometry& geometry, std::span<const DividedWake> wakes, con
         std::vector<RayVertex> outline = outline_with_wake(element.points, wake == wakes.end() ? nullptr : &*wake);
         const OutlineKind kind = outline_kind(element);
         const LayerGrowth own = growth_on_element(growth, e);
-        if (kind == OutlineKind::jagged && !options.fan_rays) leave_out_sharp_corners(own.first_height, outline);
+        if (kind == OutlineKind::jagged && !options.equal_fans) leave_out_sharp_corners(own.first_height, outline);
         if (!own.least_heights.empty()) set_least_heights(own.least_heights, outline);
         const std::vector<RayLine> upright = make_rays(outline, kind, options, own);
         const std::vector<RayLine> rays =

@@ -144,11 +144,6 @@ OptionTable<LayerOptions> make_table() {
     table.choice("corners", "at sharp convex corners: a fan of rays, or refining rays beside the vertex",
                  Choices<CornerRays>{{"fan", CornerRays::fan}, {"refine", CornerRays::refine}},
                  at(&LayerOptions::corners));
-    table.count(
-        "fan-rays", "N",
-        "rays of each fan, in place of those that max-ray-angle asks for; all other wall vertices have one ray, "
-        "and there are no refining rays",
-        numbers_from_to(2, 1000), at(&LayerOptions::fan_rays));
     table.choice("layer-topology",
                  "cells of the layer: Delaunay triangles, or the grid of rays and layers, cut or left whole",
                  Choices<LayerTopology>{{"delaunay", LayerTopology::delaunay},

@@ -193,7 +193,7 @@ FittedLayer fit_layer(PreparedWalls walls, const CaseOptions& options, const Ref
     if (layer.enabled && layers::uses("refine_walls"))
         refine_walls_below_borders(options.surface, min_wall_gradation / options.fineness, walls, grow, fitted);
     // Where all layers are made, nothing is in their way; equal numbers of layers are a promise.
-    if (layer.enabled && !layer.fan_rays && !all_layers_fit(fitted.rays) && layers::uses("end_obtuse") &&
+    if (layer.enabled && !layer.equal_fans && !all_layers_fit(fitted.rays) && layers::uses("end_obtuse") &&
         end_obtuse_columns(layer.topology, options.decomposition, fitted)) {
         count_thinned(fitted);
         request_sizes(options.sizing, fitted);

@@ -13,7 +13,15 @@ namespace {
 constexpr const char* layer_is_in_pieces =
     "the program chooses the pieces of the layer, which never change its triangles";
 
+constexpr const char *exact_points = "--exact-points N", *exact_points_line = "exact_points = N",
+                     *exact_points_reason =
+                         "it takes the place of surface-points, too, and fixes the numbers of edges on bases and of "
+                         "rays in fans";
+
 constexpr FormerOption table[] = {
+    {"surface-points-exact", exact_points, exact_points_line, exact_points_reason},
+    {"base-edges", exact_points, exact_points_line, exact_points_reason},
+    {"fan-rays", exact_points, exact_points_line, exact_points_reason},
     {"flip", "--transform all:rotate:180 --transform all:mirror", "transform = [\"all:rotate:180\", \"all:mirror\"]",
      "they exchange left and right"},
     {"decomposition-depth", "", "", layer_is_in_pieces},

@@ -81,7 +81,8 @@ void require_surface_points_within(const SurfaceOptions& options, std::size_t el
     const auto edges = static_cast<double>(elements) * static_cast<double>(*options.points);
     RunEstimate estimate = estimate_run(edges, budget.cost, thread_count(), seconds_per_border_edge * edges);
     estimate.memory_bytes += bytes_per_border_edge * edges;
-    require_within(budget.limits, estimate, "surface_points", std::to_string(*options.points));
+    require_within(budget.limits, estimate, options.exact_points ? "exact_points" : "surface_points",
+                   std::to_string(*options.points));
 }
 
 void require_layers_within(const LayerGrowth& growth, const Geometry& walls, const WorkBudget& budget) {

@@ -82,6 +82,14 @@ OptionTable<CaseOptions> make_table() {
     add_stage(sizing_option_table(), &CaseOptions::sizing, table);
     add_stage(refine_option_table(), &CaseOptions::refine, table);
     for (const Option<CaseOptions>& option : pipeline_rows()) add_row(option, table);
+    for (Option<CaseOptions>& option : table) {
+        if (option.name != "exact-points") continue;
+        // Walls that are alike by number have rays that are.
+        option.set = [set_points = option.set](CaseOptions& options, const OptionValue& value) {
+            set_points(options, value);
+            options.layer.equal_fans = true;
+        };
+    }
     return table;
 }
 
@@ -127,7 +135,7 @@ void validate(const CaseOptions& options) {
 SpacingLimits spacing_limits(const CaseOptions& options, const LayerGrowth& growth) {
     SpacingLimits limits;
     limits.max_turning_deg = options.layer.max_ray_angle_deg;
-    if (options.layer.fan_rays) limits.fan_parts = *options.layer.fan_rays - 1;
+    if (options.layer.equal_fans) limits.fan_parts = equal_fan_parts(options.layer);
     // The layer's border over a fan of rays has edges of height x ray angle, and grows no faster than its gradation.
     // Where the wall's spacing exceeds this, border edges are divided, and the rows below fan out to the division
     // points.

@@ -73,8 +73,6 @@ void refine_layer(double ratio, const ReferenceConditions& conditions, LayerOpti
         layer.growth = core::pow_reproducible(layer.growth, step);
     }
     layer.max_ray_angle_deg = std::min(layer.max_ray_angle_deg / ratio, 90.0);
-    if (layer.fan_rays)
-        layer.fan_rays = static_cast<std::uint32_t>(1 + std::max(1L, std::lround(ratio * (*layer.fan_rays - 1.0))));
 }
 
 void refine_sizing(double ratio, SizingOptions& sizing) {

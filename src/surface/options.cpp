@@ -3,9 +3,54 @@
 
 #include <lamina/option_builders.hpp>
 
+#include "core/text.hpp"
+
 namespace lamina {
 
 namespace {
+
+constexpr OptionRange point_numbers = numbers_from_to(3, 1e7), base_edge_numbers = numbers_from_to(1, 1e6);
+constexpr const char* exact_key = "exact_points";
+
+void set_exact_points(SurfaceOptions& options, const OptionValue& value) {
+    const std::string text = as_word_or_number(value, exact_key);
+    std::vector<std::int64_t> numbers;
+    try {
+        for (const double number : core::parse_numbers(text, ':')) numbers.push_back(as_count(number, exact_key));
+    } catch (const UsageError&) {
+        numbers.clear();
+    }
+    if (numbers.empty() || numbers.size() > 2)
+        throw OptionError(exact_key, "'" + text + "': it is N or N:BASE, whole numbers");
+    require_in_range(point_numbers, static_cast<double>(numbers[0]), exact_key);
+    if (numbers.size() > 1) require_in_range(base_edge_numbers, static_cast<double>(numbers[1]), exact_key);
+    options.exact_points = true;
+    options.points = static_cast<std::size_t>(numbers[0]);
+    options.base_edges.reset();
+    if (numbers.size() > 1) options.base_edges = static_cast<std::size_t>(numbers[1]);
+}
+
+std::optional<OptionValue> exact_points_text(const SurfaceOptions& options) {
+    if (!options.exact_points || !options.points) return std::nullopt;
+    std::string text = core::to_text(*options.points);
+    if (options.base_edges) text += ":" + core::to_text(*options.base_edges);
+    return text;
+}
+
+/// Adds the options of the number of points: about one, or one exactly.
+void add_numbers_of_points(OptionTableBuilder<SurfaceOptions>& table) {
+    Option<SurfaceOptions>& about =
+        table.count("surface-points", "N", "wall vertices per element, about; else as many as the ray angle requires",
+                    point_numbers, member_at(&SurfaceOptions::points));
+    about.get = [get = about.get](const SurfaceOptions& o) { return o.exact_points ? std::nullopt : get(o); };
+    table
+        .add({"exact-points", OptionKind::word, "N[:BASE]",
+              "for sections whose meshes are to have the same walls and layers by number: exactly N wall vertices on "
+              "each element, or there is no mesh; BASE edges on the base of a blunt trailing edge (N / 50); one ray at "
+              "each vertex, but at sharp corners a fan with the rays of half a turn, max-ray-angle apart",
+              point_numbers.text(), set_exact_points, exact_points_text})
+        .excludes = {"surface-points"};
+}
 
 OptionTable<SurfaceOptions> make_table() {
     OptionTableBuilder<SurfaceOptions> table("Geometry");
@@ -17,15 +62,7 @@ OptionTable<SurfaceOptions> make_table() {
                                            {"keep", SurfaceTreatment::keep},
                                            {"resample", SurfaceTreatment::resample}},
                  at(&SurfaceOptions::treatment));
-    table.count("surface-points", "N", "wall vertices per element, about; else as many as the ray angle requires",
-                numbers_from_to(3, 1e7), at(&SurfaceOptions::points));
-    // Options that need another one that has no default are checked by validate(): a flag may be given as false.
-    table.flag("surface-points-exact", "each element gets exactly so many wall vertices, or there is no mesh", true,
-               at(&SurfaceOptions::exact_points));
-    table.count(
-        "base-edges", "N",
-        "wall edges on the base of each blunt trailing edge, with surface-points-exact; else as the spacing asks",
-        numbers_from_to(1, 1e6), at(&SurfaceOptions::base_edges));
+    add_numbers_of_points(table);
     table.number("spacing-le", "SHARE",
                  "wall spacing at the leading edge at most, in lengths of the element; makes auto resample. Where the "
                  "curvature asks for less, it gets less",
@@ -67,10 +104,10 @@ const OptionTable<SurfaceOptions>& surface_option_table() {
 
 void validate(const SurfaceOptions& options) {
     require_in_range(surface_option_table(), options);
-    if (options.exact_points && !options.points) throw OptionError("surface_points_exact", "needs surface_points");
-    if (options.exact_points && options.treatment == SurfaceTreatment::keep)
-        throw OptionError("surface_points_exact", "needs new points: surface must be auto or resample");
-    if (options.base_edges && !options.exact_points) throw OptionError("base_edges", "needs surface_points_exact");
+    if (!options.exact_points) return;
+    if (!options.points) throw OptionError(exact_key, "needs a number of points");
+    if (options.treatment == SurfaceTreatment::keep)
+        throw OptionError(exact_key, "needs new points: surface must be auto or resample");
 }
 
 }  // namespace lamina

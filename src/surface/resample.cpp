@@ -232,6 +232,13 @@ SpacingRule make_spacing_rule(const ResamplingRequest& request, const ChordEnds&
     return rule;
 }
 
+/// Returns the number of edges of bases where the number of points is exact.
+std::size_t base_edges(const SurfaceOptions& options) {
+    constexpr std::size_t points_per_edge = 50;
+    const std::size_t share = (*options.points + points_per_edge / 2) / points_per_edge;
+    return options.base_edges.value_or(std::max<std::size_t>(1, share));
+}
+
 /// Gives the curve along the base of an element this number of equal edges.
 void fix_base(OutlineCurves& curves, const Element& given, std::size_t edges) {
     OutlineFeatures features;
@@ -254,7 +261,7 @@ DividedCurves divide_into_requested(const OutlineCurves& curves, const Element& 
     if (!options.points) return divide_curves(curves.curves, rule, known);
     if (!options.exact_points) return divide_curves_into(curves.curves, rule, known, *options.points);
     if (const std::size_t least = least_edges(curves.curves); *options.points < least)
-        throw OptionError("surface_points",
+        throw OptionError("exact_points",
                           fmt::format("exactly {} are too few for the {} of element {}: it needs {}", *options.points,
                                       counted(curves.curves.size(), "corner"), given.name, least));
     return divide_curves_exactly(curves.curves, rule, known, *options.points);
@@ -358,7 +365,7 @@ ResampledElement resample(const Element& given, std::size_t index, const Resampl
         append_curves(stretch, treatment, outline_curves);
     }
     const ChordEnds ends = find_chord_ends(given.points);
-    if (options.base_edges) fix_base(outline_curves, given, *options.base_edges);
+    if (options.exact_points) fix_base(outline_curves, given, base_edges(options));
     limit_at_corners(outline_curves, outline, given, index, request, ends);
     const SpacingRule rule = make_spacing_rule(request, ends, scale, index);
 

@@ -77,7 +77,7 @@ void restore_crossing(Geometry& geometry, const Geometry& given) {
 void require_number_of_points(const Geometry& geometry, std::size_t points) {
     for (const Element& e : geometry.elements)
         if (e.points.size() != points)
-            throw OptionError("surface_points_exact", fmt::format("element {}: {}", e.name, e.surface_notes.back()));
+            throw OptionError("exact_points", fmt::format("element {}: {}", e.name, e.surface_notes.back()));
 }
 
 /// An element, what becomes of its points, and the edges of the new ones.

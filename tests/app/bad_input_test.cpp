@@ -187,6 +187,18 @@ TEST(BadInput, NewPointsWhereTheGivenOnesAreKept) {
     for (const std::string option : {"spacing-max", "spacing-le", "spacing-te"})
         expect_refused(folder, mesh_naca_with({"--surface", "keep", "--" + option, "0.01"}), usage, option);
     expect_refused(folder, mesh_naca_with({"--surface", "keep", "--surface-points", "300"}), usage, "surface-points");
+    expect_refused(folder, mesh_naca_with({"--surface", "keep", "--exact-points", "300"}), usage, "exact-points");
+}
+
+TEST(BadInput, ExactNumbersOfPoints) {
+    const TemporaryFolder folder;
+    for (const char* value :
+         {"many", "200:", ":4", "200:4:4", "200.5", "200:1.5", "200,4", "2", "1e8", "200:0", "-200"})
+        expect_refused(folder, mesh_naca_with({"--exact-points", value}), usage, "option --exact-points: ");
+    expect_refused(folder, mesh_naca_with({"--exact-points", "200", "--surface-points", "200"}), usage,
+                   "exact-points and surface-points exclude each other");
+    expect_refused(folder, {"mesh", "naca:0012:blunt", "--exact-points", "6:9", "-o", "out.su2"}, usage,
+                   "option --exact-points: exactly 6 are too few");
 }
 
 TEST(BadInput, OptionsThatAreNotKnown) {

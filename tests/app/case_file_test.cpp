@@ -155,6 +155,21 @@ TEST(CaseFile, PathsAreRelativeToItsFolder) {
     EXPECT_NE(dumped.find("'naca:0012'"), std::string::npos) << dumped;
 }
 
+TEST(CaseFile, ExactNumbersOfPointsAreDumpedAndReadBack) {
+    const TemporaryFolder folder;
+    for (const std::string value : {"200", "200:7"}) {
+        const ProgramRun dump = run_lamina(folder, {"mesh", "naca:0012", "--exact-points", value, "--dump-config"});
+        ASSERT_EQ(dump.exit_code, 0) << dump.err;
+        EXPECT_NE(dump.out.find("\nexact_points = '" + value + "'\n"), std::string::npos) << dump.out;
+        EXPECT_NE(dump.out.find("\n# surface_points is not set\n"), std::string::npos) << dump.out;
+        folder.write("case.toml", dump.out);
+        EXPECT_EQ(run_lamina(folder, {"mesh", "case.toml", "--dump-config"}).out, dump.out);
+    }
+    folder.write("short.toml", "input = 'naca:0012'\nexact_points = 200\n");
+    EXPECT_NE(run_lamina(folder, {"mesh", "short.toml", "--dump-config"}).out.find("\nexact_points = '200'\n"),
+              std::string::npos);
+}
+
 TEST(CaseFile, EveryOptionOfTheHelpIsDumped) {
     const TemporaryFolder folder;
     const std::string help = run_lamina(folder, {"mesh", "--help-all"}).out;

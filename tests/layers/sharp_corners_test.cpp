@@ -117,7 +117,7 @@ TEST(SharpCorners, KeepTheirRayWhereTheyMust) {
     EXPECT_EQ(count(jagged_geometry(notched_plate(65)), options_of_layers()), 0u) << "wide";
     EXPECT_EQ(count(jagged_geometry(notched_plate(15)), test::layers_of(5e-2, 1.2, 3)), 0u) << "high first layers";
     LayerOptions equal_fans = options_of_layers();
-    equal_fans.fan_rays = 5;
+    equal_fans.equal_fans = true;
     EXPECT_EQ(count(jagged_geometry(notched_plate(30)), equal_fans), 0u) << "equal numbers of rays";
     Geometry smooth = jagged_geometry(notched_plate(30));
     smooth.elements[0].smooth = true;

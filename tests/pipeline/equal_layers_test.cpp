@@ -1,6 +1,7 @@
 // Exact numbers of wall points and of rays in fans give similar sections layers that are numbered alike.
 #include <array>
 #include <cstdint>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -14,13 +15,13 @@ namespace {
 using shapes::Outline;
 
 constexpr std::size_t wall_points = 180;
-constexpr std::uint32_t layer_count = 24, rays_of_fan = 25;
+constexpr std::uint32_t layer_count = 24;
+/// Half a turn at 5 degrees between rays.
+constexpr std::size_t rays_of_fan = 37;
 
 CaseOptions equal_options() {
     CaseOptions options;
-    options.surface.points = wall_points;
-    options.surface.exact_points = true;
-    options.layer.fan_rays = rays_of_fan;
+    find_row(case_option_table(), "exact-points").set(options, std::int64_t{wall_points});
     options.layer.layers = layer_count;
     options.layer.first_height = Length{2e-5};
     options.layer.topology = LayerTopology::quads;
@@ -79,11 +80,12 @@ TEST(EqualLayers, OfSectionsWithASharpTrailingEdge) {
 }
 
 TEST(EqualLayers, OfSectionsWithABase) {
-    CaseOptions options = equal_options();
-    options.surface.base_edges = 3;
-    expect_equal_layers({naca("0012", 120, TrailingEdge::blunt), naca("2415", 120, TrailingEdge::blunt),
-                         shapes::section(0.15, 0.004, 30), shapes::section(0.1, 0.002, 30)},
-                        options, 2);
+    const std::vector<Outline> sections{naca("0012", 120, TrailingEdge::blunt), naca("2415", 120, TrailingEdge::blunt),
+                                        shapes::section(0.15, 0.004, 30), shapes::section(0.1, 0.002, 30)};
+    expect_equal_layers(sections, equal_options(), 2);
+    CaseOptions three_edges = equal_options();
+    find_row(case_option_table(), "exact-points").set(three_edges, std::to_string(wall_points) + ":3");
+    expect_equal_layers(sections, three_edges, 2);
 }
 
 TEST(EqualLayers, OfSectionsWithoutFans) {

@@ -185,6 +185,17 @@ def test_promised_angles_or_no_mesh(repository):
             lamina.mesh(lamina.naca("0030", 12), surface="keep", **options)
 
 
+@pytest.mark.parametrize("key, advice", [
+    ("flip", r'write transform = \["all:rotate:180", "all:mirror"\]: they exchange left and right'),
+    ("fan_rays", "write exact_points = N: "), ("base_edges", "write exact_points = N: "),
+    ("surface_points_exact", "write exact_points = N: "), ("pieces_target", "delete it: "),
+    ("separators", "delete it: "), ("decomposition_depth", "delete it: "), ("leaf_vertices", "delete it: ")])
+def test_former_options_name_what_serves_in_their_place(key, advice):
+    with pytest.raises(lamina.OptionError, match=f"{key}: no such option: {advice}") as caught:
+        lamina.mesh("naca:0012", **{key: 5})
+    assert caught.value.option == key
+
+
 def test_progress_and_what_it_raises():
     stages = []
     lamina.mesh("naca:0012", progress=lambda stage, estimate: stages.append((stage, estimate)))

@@ -101,7 +101,7 @@ def test_data_set(repository, tmp_path, suffix):
                     "--seed", "7", "-o", str(archive)], check=True, capture_output=True, timeout=120)
     data = arrays_of(archive)
     assert list(data["name"]) == [f"cst{s:05d}" for s in range(4)] and len(data["failed"]) == 0
-    rays = example["POINTS"] + example["OPTIONS"]["fan_rays"] - 1
+    rays = example["POINTS"] + 36  # the fan of half a turn, 5 degrees apart, has 37 in place of one
     assert data["wall"].shape == (4, example["POINTS"], 2)
     assert data["layer"].shape == (4, rays, example["LAYERS"] + 1, 2)
     heights = np.linalg.norm(data["layer"][:, :, 1] - data["layer"][:, :, 0], axis=2)

@@ -91,6 +91,13 @@ TEST(ExactPoints, OfTheBase) {
             }
         }
     EXPECT_EQ(prepared(shapes::section(0.12, 0, 40), exactly(220, 4)).points.size(), 220u) << "no base";
+    // Without their number, the edges are a fiftieth of the points, whatever the base.
+    for (const double base : {0.001, 0.003, 0.02})
+        for (const auto& [points, edges] : {std::pair{20u, 1u}, {60u, 1u}, {100u, 2u}, {220u, 4u}, {400u, 8u}}) {
+            const Element e = prepared(shapes::section(0.12, base, 40), exactly(points));
+            ASSERT_TRUE(e.features.base.has_value());
+            EXPECT_EQ((e.features.base->last + points - e.features.base->first) % points, edges) << base;
+        }
 }
 
 TEST(ExactPoints, OfEachElement) {
@@ -112,15 +119,13 @@ TEST(ExactPoints, AreRefusedWhereTheyCannotBe) {
     const Outline wing = shapes::section(0.12, 0.003, 40);
     SurfaceOptions wrong = exactly(200);
     wrong.treatment = SurfaceTreatment::keep;
-    EXPECT_EQ(refused_option(wing, wrong), "surface_points_exact");
+    EXPECT_EQ(refused_option(wing, wrong), "exact_points");
     wrong = exactly(200);
     wrong.points.reset();
-    EXPECT_EQ(refused_option(wing, wrong), "surface_points_exact");
-    wrong = exactly(200, 4);
-    wrong.exact_points = false;
-    EXPECT_EQ(refused_option(wing, wrong), "base_edges");
-    EXPECT_EQ(refused_option(wing, exactly(6, 9)), "surface_points");
-    EXPECT_EQ(refused_option(shapes::comb(5, 0.1), exactly(12)), "surface_points");
+    EXPECT_EQ(refused_option(wing, wrong), "exact_points");
+    EXPECT_EQ(refused_option(wing, exactly(200, 0)), "exact_points");
+    EXPECT_EQ(refused_option(wing, exactly(6, 9)), "exact_points");
+    EXPECT_EQ(refused_option(shapes::comb(5, 0.1), exactly(12)), "exact_points");
     EXPECT_EQ(refused_option(wing, exactly(200)), "");
 }
 

@@ -75,17 +75,17 @@ Point last_direction(const WallVertex& v) { return leaning(v.fan ? v.normal_afte
 /// Returns half of the angle between the first and the last ray of a fan, in radians.
 double half_fan(const WallVertex& v) { return 0.5 * (v.turning + v.lean[1] - v.lean[0]); }
 
-/// Adds the ray or the fan of a vertex, which has `fan_rays` rays, or as many as max_angle asks for. The angles of a
+/// Adds the ray or the fan of a vertex, which has `fan_parts` parts, or as many as max_angle asks for. The angles of a
 /// fan are counted from the bisector, not from one side to the other, so that mirrored input gives mirrored rays.
 void add_vertex_rays(const RayVertex& at, const WallVertex& vertex, double max_angle,
-                     std::optional<std::uint32_t> fan_rays, std::vector<RayLine>& rays) {
+                     std::optional<std::uint32_t> fan_parts, std::vector<RayLine>& rays) {
     const auto add = [&](Point direction) {
         rays.push_back({at.at, direction, at.place, at.opening, at.least_height});
     };
     add(first_direction(vertex));
     if (!vertex.fan) return;
     const double half = half_fan(vertex), middle = 0.5 * (vertex.lean[0] + vertex.lean[1]);
-    const std::size_t parts = fan_rays ? *fan_rays - 1 : angle_parts(2 * half, max_angle);
+    const std::size_t parts = fan_parts ? *fan_parts : angle_parts(2 * half, max_angle);
     for (std::size_t k = 1; k < parts; ++k) {
         const double share = (2.0 * static_cast<double>(k) - static_cast<double>(parts)) / static_cast<double>(parts);
         add(unit(core::rotated(vertex.bisector, middle + share * half)));
@@ -110,18 +110,20 @@ std::vector<RayLine> make_rays(std::span<const RayVertex> outline, OutlineKind k
                                const LayerGrowth& growth, std::span<const double> heights) {
     const bool smooth = kind == OutlineKind::smooth, jagged = kind == OutlineKind::jagged;
     const double min_fan_turning_deg =
-        smooth && !options.fan_rays ? std::min(sharp_corner_deg, 2 * options.max_ray_angle_deg) : sharp_corner_deg;
+        smooth && !options.equal_fans ? std::min(sharp_corner_deg, 2 * options.max_ray_angle_deg) : sharp_corner_deg;
     std::vector<WallVertex> vertices = wall_vertices(outline, options, min_fan_turning_deg);
     if (!heights.empty() && uses("leans")) lean_rays(outline, heights, kind, options, growth, vertices);
     const double max_angle = core::radians(options.max_ray_angle_deg);
+    std::optional<std::uint32_t> fan_parts;
+    if (options.equal_fans) fan_parts = equal_fan_parts(options);
     std::vector<RayLine> rays;
     rays.reserve(2 * outline.size());
     for (std::size_t i = 0; i < outline.size(); ++i) {
         const std::size_t next = (i + 1) % outline.size();
-        add_vertex_rays(outline[i], vertices[i], max_angle, options.fan_rays, rays);
+        add_vertex_rays(outline[i], vertices[i], max_angle, fan_parts, rays);
         rays.back().corner_after = outline[i].corner_after;
         if (!outline[i].corner_after.empty()) continue;
-        if (options.fan_rays || outline[i].place != RayPlace::wall || outline[next].place != RayPlace::wall) continue;
+        if (options.equal_fans || outline[i].place != RayPlace::wall || outline[next].place != RayPlace::wall) continue;
         const RayLine after{.origin = outline[next].at,
                             .direction = first_direction(vertices[next]),
                             .least_height = outline[next].least_height};
@@ -131,3 +133,11 @@ std::vector<RayLine> make_rays(std::span<const RayVertex> outline, OutlineKind k
 }
 
 }  // namespace lamina::layers
+
+namespace lamina {
+
+std::uint32_t equal_fan_parts(const LayerOptions& options) {
+    return static_cast<std::uint32_t>(layers::angle_parts(core::pi, core::radians(options.max_ray_angle_deg)));
+}
+
+}  // namespace lamina

@@ -40,7 +40,7 @@ private:
 /// origin. On smooth outlines, blunter corners have fans, too: refining rays would divide the edges beside them into
 /// far shorter ones. Vertices of a wake have one ray on either side, and its edges no refining rays, so that both sides
 /// keep the same vertices. With heights of the front, one per vertex, rays
-/// lean (leans.hpp). With options.fan_rays each fan has this number of rays, only sharp corners have fans, and there are no
+/// lean (leans.hpp). With options.equal_fans all fans have one number of rays, only sharp corners have them, and there are no
 /// refining rays. Source: thesis 3 and 3.1.
 std::vector<RayLine> make_rays(std::span<const RayVertex> outline, OutlineKind kind, const LayerOptions& options,
                                const LayerGrowth& growth, std::span<const double> heights = {});
