@@ -148,6 +148,9 @@ struct FlowWake {
     double first_width = 0;  ///< at the trailing edge
     double last_width = 0;   ///< at its end
     double with_layers = 0;  ///< the length over which layers go on along it (LayerOptions::wake_layers)
+    /// Whether it is the envelope of two shear layers with fluid at rest between them, along the free stream, from where the
+    /// first one leaves the wall on.
+    bool separated = false;
 };
 
 /// The smallest spacing that the flow asks for on the wall of one element.

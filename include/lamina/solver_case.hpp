@@ -44,9 +44,13 @@ LAMINA_EXPORT const OptionTable<SolverCaseOptions>& solver_case_option_table();
 /// Returns the solvers by their names on the command line: "openfoam", "su2".
 LAMINA_EXPORT const std::vector<std::pair<std::string, FlowSolver>>& flow_solvers();
 
-/// The half-width of the far field, in chords, that suits the conditions that the solver has for it.
-/// OpenFOAM's far field carries the vortex of the lift; SU2's is a uniform stream.
-LAMINA_EXPORT double far_field_for(FlowSolver solver);
+/// The Mach number of a case of SU2 where none is given.
+inline constexpr double default_case_mach = 0.15;
+
+/// Returns the half-width of the far field, in chords, that suits the conditions that the solver has for it at a Mach
+/// number. OpenFOAM's far field carries the vortex of the lift; SU2's is a uniform stream. What is behind shocks of supersonic
+/// flow reaches no far.
+LAMINA_EXPORT double far_field_for(FlowSolver solver, double mach = default_case_mach);
 
 /// The flow that a case computes, and what its coefficients count. Lengths are in units of the mesh.
 struct SolverConditions {
@@ -75,9 +79,6 @@ LAMINA_EXPORT std::vector<SolverCaseFile> solver_case_files(FlowSolver solver, c
 /// Returns WarningCode::unsuited_to_solver where most cells of the mesh's layer are triangles: simpleFoam diverges on
 /// them within 35 iterations. For SU2 there is no such case at all (solver_case_files()).
 LAMINA_EXPORT std::vector<Warning> find_solver_warnings(FlowSolver solver, const Mesh& mesh);
-
-/// The Mach number of a case of SU2 where none is given.
-inline constexpr double default_case_mach = 0.15;
 
 /// Returns WarningCode::unsuited_speed where the settings of a case are not made for this Mach number: above 0.5, and
 /// where the flow is expected to be supersonic along more than 0.05 chords of the walls, by the pressures of the

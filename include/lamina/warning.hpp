@@ -33,7 +33,7 @@ enum class WarningCode {
     no_triangles,              ///< a triangulation is empty: its points lie on one line, or its holes take all away
     unsuited_to_solver,        ///< the solver that the mesh is written for cannot use its cells
     flow_estimated,            ///< the panel method failed, and the flow is that along flat plates
-    flow_separates,            ///< a stalled section or a bluff body, on which sizes are those of attached flow
+    flow_separates,            ///< a stalled section or a bluff body: lift is an upper bound
     unsuited_speed,            ///< the settings of the solver's case are not made for this Mach number
     unused_seed,               ///< a hole or a region of a triangulation lies where it changes nothing
     marker_renamed,            ///< a marker has another name than it was given, which not every format takes

@@ -78,7 +78,9 @@ void apply_preferences(FlowSolver solver, MeshCase& mesh_case) {
     CaseOptions& options = mesh_case.options;
     constexpr double tunnel_half_length = 20;
     if (!is_given(mesh_case, "far-field"))
-        options.far_field.size = Length{options.far_field.tunnel ? tunnel_half_length : far_field_for(solver)};
+        options.far_field.size = Length{
+            options.far_field.tunnel ? tunnel_half_length
+                                     : far_field_for(solver, options.conditions.mach.value_or(default_case_mach))};
     // Some presets have one of their own.
     if (!is_given(mesh_case, "gradation") && options.sizing.gradation == SizingOptions{}.gradation)
         options.sizing.gradation = gradation;

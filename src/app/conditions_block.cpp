@@ -24,10 +24,13 @@ struct FlowFact {
     bool is_default = false;  ///< whether the summary leaves it out
 };
 
-/// Statements about the wakes and spacings of the flow: where they come from.
-constexpr const char* wake_source =
-    "streamline of the panel method, with 0.8 of its lift; as wide as the boundary layers, Head, "
-    "spreading like a plane wake, Schlichting";
+/// Say where the wakes and spacings of the flow come from.
+const char* wake_source(const FlowWake& wake) {
+    return wake.separated
+               ? "envelope of both shear layers, from where the flow leaves the wall"
+               : "streamline of the panel method, with 0.8 of its lift; as wide as the boundary layers, Head, "
+                 "spreading like a plane wake, Schlichting";
+}
 constexpr const char* spacing_source =
     "change of the pressure coefficient of the panel method, or first height at the corners of a base";
 
@@ -122,13 +125,13 @@ std::string wakes_summary(const MeshResult& result) {
     const std::vector<FlowWake>& wakes = result.decisions.wakes;
     std::string text;
     for (std::size_t i = 0; i < wakes.size(); ++i) {
-        const auto& [element, length, first_width, last_width, with_layers] = wakes[i];
+        const FlowWake& wake = wakes[i];
         const std::string layers =
-            with_layers > 0 ? fmt::format(", with layers over {:.4g} chords", with_layers / chord) : "";
+            wake.with_layers > 0 ? fmt::format(", with layers over {:.4g} chords", wake.with_layers / chord) : "";
         text += summary_line(
             "wake", fmt::format("{} of {}, behind {}: {:.4g} chords long{}, {:.3g} to {:.3g} chords wide ({})", i + 1,
-                                wakes.size(), element, length / chord, layers, first_width / chord, last_width / chord,
-                                wake_source));
+                                wakes.size(), wake.element, wake.length / chord, layers, wake.first_width / chord,
+                                wake.last_width / chord, wake_source(wake)));
     }
     return text;
 }
@@ -184,7 +187,7 @@ Json conditions_report(const MeshCase& mesh_case, const MeshResult& result) {
                                    {"first_width", both_units(wake.first_width, chord)},
                                    {"last_width", both_units(wake.last_width, chord)},
                                    {"with_layers", both_units(wake.with_layers, chord)},
-                                   {"source", wake_source}});
+                                   {"source", wake_source(wake)}});
     for (const FlowSpacing& spacing : result.decisions.spacings)
         report["wall_spacings"].push_back({{"element", spacing.element},
                                            {"smallest", both_units(spacing.smallest, chord)},

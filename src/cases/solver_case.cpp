@@ -150,7 +150,10 @@ const std::vector<std::pair<std::string, FlowSolver>>& flow_solvers() {
     return names;
 }
 
-double far_field_for(FlowSolver solver) { return entry_of(solver).far_field; }
+double far_field_for(FlowSolver solver, double mach) {
+    constexpr double supersonic = 30;
+    return mach < 1 ? entry_of(solver).far_field : supersonic;
+}
 
 std::vector<SolverCaseFile> solver_case_files(FlowSolver solver, const Mesh& mesh, const SolverConditions& conditions,
                                               const SolverCaseOptions& options) {

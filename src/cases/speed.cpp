@@ -52,13 +52,17 @@ std::vector<Warning> find_speed_warnings(FlowSolver solver, double mach, const F
         length > longest
             ? fmt::format(", where the flow is expected to be supersonic along {:.2f} chords of the walls", length)
             : "";
+    const std::string advice =
+        solver == FlowSolver::su2
+            ? std::string("sizes are those of flow without shocks: make the walls behind them finer (--spacing-max)")
+            : fmt::format(
+                  "the settings of the case and sizes are those of Mach {}, without shocks: give "
+                  "system/fvSchemes schemes and limiters for them",
+                  default_case_mach);
     return {{.code = WarningCode::unsuited_speed,
              .number = mach,
              .unit = "Mach number",
-             .message = fmt::format(
-                 "Mach number {:.4g}{}: the settings of the case, sizes and far field are those of Mach "
-                 "{}, without shocks: give {} schemes and limiters for them",
-                 mach, where, default_case_mach, solver == FlowSolver::su2 ? "case.cfg" : "system/fvSchemes")}};
+             .message = fmt::format("Mach number {:.4g}{}: {}", mach, where, advice)}};
 }
 
 }  // namespace lamina

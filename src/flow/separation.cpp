@@ -21,33 +21,41 @@ const FlowPoint& last_attached(const std::vector<FlowPoint>& side) {
 
 }  // namespace
 
-std::optional<Warning> find_wide_wake(const Flow& flow) {
-    // In chords, across the stream. NACA 0012 at a Reynolds number of 6e6 has 0.06 at 15 degrees, 0.15 at 17 and 0.2 at
-    // 18, where the Reynolds-averaged equations have no attached flow any more; a cylinder has 0.7.
-    constexpr double widest = 0.2;
+std::optional<OpenWake> find_open_wake(const Flow& flow, const ElementFlow& element) {
+    constexpr double least_width = 0.16;  // in chords
     if (flow.estimated) return std::nullopt;
     const double alpha = core::radians(flow.alpha_deg);
-    const Point stream{core::cos_reproducible(alpha), core::sin_reproducible(alpha)};
-    std::optional<Warning> warning;
-    for (const ElementFlow& element : flow.elements) {
-        const FlowPoint &above = last_attached(element.upper), &below = last_attached(element.lower);
-        const double width = cross(stream, above.at - below.at) / flow.chord;
-        if (!(width > (warning ? warning->number : widest))) continue;
-        // The side whose layer leaves farther from the end of the body says more.
-        const bool upper = element.upper.back().s - above.s >= element.lower.back().s - below.s;
-        const Point at = (upper ? above : below).at;
-        warning = {
-            .code = WarningCode::flow_separates,
-            .element = element.name,
-            .at = at,
-            .number = width,
-            .unit = "chords",
-            .message = fmt::format("{}: stalled or bluff, since its boundary layer leaves the wall at ({:.6g}, "
-                                   "{:.6g}) and the wake begins {:.2f} chords wide; sizes and wakes are those of "
-                                   "attached flow (--refine, or lamina sizes with a solution)",
-                                   element.name, at.x, at.y, width)};
-    }
-    return warning;
+    const Point stream{core::cos_reproducible(alpha), core::sin_reproducible(alpha)},
+        above = last_attached(element.upper).at, below = last_attached(element.lower).at;
+    const double width = cross(stream, above - below);
+    if (!(width > least_width * flow.chord)) return std::nullopt;
+    return OpenWake{above, below, stream, width};
+}
+
+std::optional<Warning> find_wide_wake(const Flow& flow) {
+    const ElementFlow* widest = nullptr;
+    std::optional<OpenWake> wake;
+    for (const ElementFlow& element : flow.elements)
+        if (const auto other = find_open_wake(flow, element); other && (!wake || other->width > wake->width)) {
+            widest = &element;
+            wake = other;
+        }
+    if (!wake) return std::nullopt;
+    // The side whose layer leaves farther from the end of the body says more.
+    const bool upper = distance(wake->above, widest->upper.back().at) >= distance(wake->below, widest->lower.back().at);
+    const Point at = upper ? wake->above : wake->below;
+    const double width = wake->width / flow.chord;
+    return Warning{
+        .code = WarningCode::flow_separates,
+        .element = widest->name,
+        .at = at,
+        .number = width,
+        .unit = "chords",
+        .message = fmt::format(
+            "{}: stalled or bluff, separated from ({:.6g}, {:.6g}) on, where a wake {:.2f} chords wide begins; the "
+            "lift coefficient {:.3g} is an upper bound, and the wake is meshed along the "
+            "free stream",
+            widest->name, at.x, at.y, width, flow.lift)};
 }
 
 }  // namespace lamina::flow

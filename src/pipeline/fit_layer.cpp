@@ -86,7 +86,10 @@ void request_sizes(SizingOptions options, FittedLayer& fitted) {
         for (const auto* sources : {&wakes[e].outer, &wakes[e].inner, &wakes[e].mixing})
             for (const WakeSource& wake : *sources)
                 if (wake.begins >= rays.wake_lengths[e]) along_wakes.push_back(wake.source);
-        fit_wake_to_layer(rays, e, border_gradation(field_gradation(options)), std::span(along_wakes).subspan(first));
+        // Shear layers that leave the wall ahead of the trailing edge make the wall below them finer in place of this.
+        if (!wakes[e].wake.separated)
+            fit_wake_to_layer(rays, e, border_gradation(field_gradation(options)),
+                              std::span(along_wakes).subspan(first));
     }
     const bool decided = decides_on_sizes(options);
     if (!decided) options.sources.insert(options.sources.end(), along_wakes.begin(), along_wakes.end());

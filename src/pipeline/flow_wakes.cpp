@@ -8,6 +8,7 @@
 
 #include "flow/boundary_layer.hpp"
 #include "flow/panel_system.hpp"
+#include "flow/separation.hpp"
 #include "pipeline/flow_guidance.hpp"
 #include "surface/spline.hpp"
 
@@ -35,6 +36,12 @@ constexpr double inner_start = 4, inner_growth_attached = 0.06, inner_growth_at_
 /// Behind a base that is wider than the inner wake there are two mixing layers, from its corners, with fluid at rest
 /// between them. They meet after this many widths of the base: where both together are as wide as it.
 constexpr double mixing_length = 0.5 / inner_growth_at_rest;
+/// Fluid at rest between two shear layers, in its width where it begins: its wake widens by 0.1 on either side per length; both
+/// shear layers lie within it. Edges are as long as the first number up to the first distance, and grow to the second number at
+/// the second distance, where the wake ends. Resolved vortex streets behind cylinders have 30 to 50 edges across the body
+/// (P. Parnaudeau, J. Carlier, D. Heitz, E. Lamballais, Phys. Fluids 20 (2008), 085101).
+constexpr double open_half_width = 0.6, open_growth = 0.1, open_edge = 0.025, open_even_length = 5,
+                 open_last_edge = 0.1, open_length = 20;
 /// Lift of viscous over that of potential flow, and how far it may be from this. It is 0.86 to 0.9 where the flow is
 /// attached and 0.8 where it separates on a flap, but wakes of little lift hardly bend.
 constexpr double lift_share = 0.8, lift_share_range = 0.05;
@@ -176,6 +183,49 @@ MeasuredLine line_from_corner(const MeasuredLine& wake, Point corner, double len
     return line;
 }
 
+/// Returns how far one can go from a point in a direction before a wall of another element: at most `length`.
+double free_length(const Flow& flow, const ElementFlow& own, Point from, Point direction, double length) {
+    const Point to = from + length * direction;
+    double least = length;
+    for (const ElementFlow& element : flow.elements)
+        for (const auto* side : {&element.upper, &element.lower})
+            for (std::size_t i = 1; i < side->size() && &element != &own; ++i) {
+                const Point a = (*side)[i - 1].at, b = (*side)[i].at;
+                const double before = cross(to - from, a - from), after = cross(to - from, b - from);
+                if ((before > 0) == (after > 0)) continue;
+                const double along = dot(a + before / (before - after) * (b - a) - from, direction);
+                if (along > 0) least = std::min(least, along);
+            }
+    return least;
+}
+
+/// Returns the envelope of both shear layers behind an element that the flow has left. It begins beside the first place of
+/// separation and follows the free stream:
+///
+///       ______________ - - - -     half-width 0.6 D + 0.1 s
+///      /above
+///     | . . . . . . . . . . . . .  middle of the wake
+///      \below________ _ _ _ _
+///
+ElementWake open_wake(const Flow& flow, const ElementFlow& element, const flow::OpenWake& open, double fineness) {
+    const double d = open.width;
+    const Point middle = midpoint(open.above, open.below);
+    const double first = std::min(dot(open.above - middle, open.stream), dot(open.below - middle, open.stream));
+    const Point from = middle + first * open.stream;
+    MeasuredLine line;
+    line.add(from);
+    line.add(from + free_length(flow, element, from, open.stream, open_length * d) * open.stream);
+    const auto size = [&](double s) {
+        const double share = std::max(s / d - open_even_length, 0.0) / (open_length - open_even_length);
+        return (open_edge + share * (open_last_edge - open_edge)) * d / fineness;
+    };
+    const auto half_width = [&](double s) { return open_half_width * d + open_growth * s; };
+    ElementWake wake;
+    wake.wake = {element.name, line.s.back(), 2 * half_width(0), 2 * half_width(line.s.back()), 0, true};
+    wake.outer = make_chain(line, size, half_width, [](double) { return true; });
+    return wake;
+}
+
 }  // namespace
 
 std::vector<ElementWake> wakes_of_flow(const Flow& flow, double fineness) {
@@ -184,6 +234,10 @@ std::vector<ElementWake> wakes_of_flow(const Flow& flow, double fineness) {
                             weaker = falling_lift(flow, lift_share - lift_share_range);
     std::vector<ElementWake> wakes;
     for (const ElementFlow& element : flow.elements) {
+        if (const auto open = flow::find_open_wake(flow, element)) {
+            wakes.push_back(open_wake(flow, element, *open, fineness));
+            continue;
+        }
         const FlowPoint &above = element.upper.back(), &below = element.lower.back();
         const Point from = midpoint(above.at, below.at);
         const MeasuredLine line = wake_line(flows, from, rough), other = wake_line(weaker, from, rougher);

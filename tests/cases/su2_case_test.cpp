@@ -46,6 +46,21 @@ TEST(Su2Case, EveryOptionIsOneOfSu2) {
             EXPECT_TRUE(known.contains(name)) << name;
 }
 
+/// Flows that may have shocks get a limiter, others the correction for low Mach numbers. Faster than sound, nothing reaches
+/// far.
+TEST(Su2Case, HasASchemeForEachMachNumber) {
+    SolverConditions conditions = some_conditions();
+    for (const double mach : {0.1, 0.3, 0.31, 0.734, 2.0}) {
+        conditions.reference.mach = mach;
+        auto options = options_of_case(conditions);
+        EXPECT_EQ(options["LOW_MACH_CORR"], mach <= 0.3 ? "YES" : "NO") << mach;
+        EXPECT_EQ(options["SLOPE_LIMITER_FLOW"], mach <= 0.3 ? "NONE" : "VENKATAKRISHNAN") << mach;
+        EXPECT_EQ(options.contains("VENKAT_LIMITER_COEFF"), mach > 0.3) << mach;
+        for (const FlowSolver solver : {FlowSolver::su2, FlowSolver::openfoam})
+            EXPECT_EQ(far_field_for(solver, mach) < far_field_for(solver), mach >= 1) << mach;
+    }
+}
+
 TEST(Su2Case, SaysTheFlow) {
     SolverConditions conditions = some_conditions();
     auto options = options_of_case(conditions);
