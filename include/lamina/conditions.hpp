@@ -34,6 +34,12 @@ struct ReferenceConditions {
     std::optional<double> mach{};      ///< FlowConditions::mach
 };
 
+/// Returns whether flow round sections is taken for laminar: below a Reynolds number of 1e4.
+inline bool is_laminar(const ReferenceConditions& conditions) {
+    constexpr double laminar_reynolds = 1e4;
+    return conditions.reynolds && *conditions.reynolds < laminar_reynolds;
+}
+
 /// Returns the conditions of the flow round bodies in this box. The chord is the extent of the box in x unless it is
 /// given. The Reynolds number is the given one, or velocity x chord / viscosity. Throws OptionError as validate() does.
 LAMINA_EXPORT ReferenceConditions reference_conditions(const FlowConditions& conditions, const Box& bodies);

@@ -28,11 +28,13 @@ enum class FlowSolver {
 enum class TurbulenceModel {
     spalart_allmaras,  ///< Spalart-Allmaras
     k_omega_sst,       ///< Menter's k-omega SST of 2003
+    laminar,           ///< none: the Navier-Stokes equations as they are
 };
 
 /// Options of cases.
 struct SolverCaseOptions {
-    TurbulenceModel turbulence = TurbulenceModel::spalart_allmaras;  ///< the model that closes the equations
+    /// The model that closes the equations; empty: none where is_laminar(), Spalart-Allmaras elsewhere.
+    std::optional<TurbulenceModel> turbulence{};
     bool overwrite = false;  ///< whether files of the folder that have the name of a file of the case are replaced
     /// Whether OpenFOAM's case is that of a gas, at ReferenceConditions::mach, above 0 and below 1. SU2's always is.
     bool compressible = false;

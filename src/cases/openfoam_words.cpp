@@ -75,8 +75,9 @@ void add_turbulence(const CaseFlow& flow, Words& words) {
     constexpr double k_share = 4e-7, sst_ratio = 0.009;
     const double k = k_share * flow.velocity * flow.velocity;
     const double nu_t = sst ? sst_ratio * nu : chi * nu * cubed / (cubed + cv1_cubed);
+    words["SIMULATION_TYPE"] = flow.turbulence == TurbulenceModel::laminar ? "laminar" : "RAS";
     words["RAS_MODEL"] = sst ? "kOmegaSST" : "SpalartAllmaras";
-    words["TURBULENCE_FIELDS"] = sst ? "k omega" : "nuTilda";
+    words["TURBULENCE_FIELDS"] = flow.turbulence == TurbulenceModel::laminar ? "" : sst ? "k omega" : "nuTilda";
     words["NU_TILDA"] = number(chi * nu);
     words["NU_T"] = number(nu_t);
     words["K"] = number(k);

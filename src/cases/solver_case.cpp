@@ -49,9 +49,13 @@ fs::path mesh_file(const SolverEntry& entry, const fs::path& folder) {
     return *entry.mesh == '\0' ? folder : folder / entry.mesh;
 }
 
-/// Returns whether the solver's case has this file: fields of the other turbulence model are left out, and without
+TurbulenceModel turbulence_of(const SolverCaseOptions& options, bool is_laminar) {
+    return options.turbulence.value_or(is_laminar ? TurbulenceModel::laminar : TurbulenceModel::spalart_allmaras);
+}
+
+/// Returns whether the solver's case has this file: fields of other turbulence models are left out, and without
 /// compressibility what describes a gas.
-bool belongs_to_case(const Template& file, const SolverEntry& entry, const SolverCaseOptions& options) {
+bool belongs_to_case(const Template& file, const SolverEntry& entry, TurbulenceModel turbulence, bool compressible) {
     const std::string_view name = file.name;
     if (file.solver != entry.name && file.solver != "common") return false;
     constexpr std::array of_gas{"0/T",
@@ -60,8 +64,8 @@ bool belongs_to_case(const Template& file, const SolverEntry& entry, const Solve
                                 "system/compress.awk",
                                 "system/fvOptions.gas",
                                 "system/medium.compressible"};
-    if (std::find(of_gas.begin(), of_gas.end(), name) != of_gas.end()) return options.compressible;
-    const TurbulenceModel turbulence = options.turbulence;
+    if (std::find(of_gas.begin(), of_gas.end(), name) != of_gas.end()) return compressible;
+    if (name == "0/nut") return turbulence != TurbulenceModel::laminar;
     if (name == "0/nuTilda") return turbulence == TurbulenceModel::spalart_allmaras;
     if (name == "0/k" || name == "0/omega") return turbulence == TurbulenceModel::k_omega_sst;
     return true;
@@ -113,7 +117,7 @@ CaseFlow case_flow(FlowSolver solver, const Mesh& mesh, const SolverConditions& 
     const double alpha = core::radians(alpha_deg);
     flow.direction = {core::cos_reproducible(alpha), core::sin_reproducible(alpha)};
     flow.wall_functions = conditions.wall_functions;
-    flow.turbulence = options.turbulence;
+    flow.turbulence = turbulence_of(options, is_laminar(conditions.reference));
     flow.walls = names_of_markers(mesh, MarkerKind::wall);
     flow.far_fields = names_of_markers(mesh, MarkerKind::far_field);
     flow.symmetries = names_of_markers(mesh, MarkerKind::symmetry);
@@ -162,10 +166,11 @@ std::vector<SolverCaseFile> solver_case_files(FlowSolver solver, const Mesh& mes
             "a case of SU2 needs quadrilaterals in the layer, since SU2 finds wrong forces on triangles: "
             "--layer-topology quads, with thinner or fewer layers where rows would cross");
     const SolverEntry& entry = entry_of(solver);
-    const Words words = entry.words(case_flow(solver, mesh, conditions, options));
+    const CaseFlow flow = case_flow(solver, mesh, conditions, options);
+    const Words words = entry.words(flow);
     std::vector<SolverCaseFile> files;
     for (const Template& file : templates())
-        if (belongs_to_case(file, entry, options))
+        if (belongs_to_case(file, entry, flow.turbulence, options.compressible))
             files.push_back({fs::path(file.name), fill_in(file.text, words), file.text.starts_with("#!")});
     return files;
 }
@@ -186,7 +191,8 @@ std::vector<fs::path> solver_case_outputs(FlowSolver solver, const fs::path& fol
     const SolverEntry& entry = entry_of(solver);
     std::vector<fs::path> outputs = output_files(mesh_file(entry, folder), {.format = entry.format});
     for (const Template& file : templates())
-        if (belongs_to_case(file, entry, options)) outputs.push_back(folder / fs::path(file.name));
+        if (belongs_to_case(file, entry, turbulence_of(options, false), options.compressible))
+            outputs.push_back(folder / fs::path(file.name));
     return outputs;
 }
 

@@ -21,11 +21,13 @@ std::string walls_with(const CaseFlow& flow, std::string_view value) {
 }  // namespace
 
 Words su2_words(const CaseFlow& flow) {
-    const bool sst = flow.turbulence == TurbulenceModel::k_omega_sst;
+    const bool sst = flow.turbulence == TurbulenceModel::k_omega_sst,
+               laminar = flow.turbulence == TurbulenceModel::laminar;
     Words words;
     words["TITLE"] = fmt::format("Reynolds number {}, Mach number {}, angle of attack {} degrees, chord {}",
                                  flow.reynolds, flow.mach, flow.alpha_deg, flow.chord);
-    words["TURBULENCE_MODEL"] = sst ? "SST" : "SA";
+    words["EQUATIONS"] = laminar ? "NAVIER_STOKES" : "RANS";
+    words["TURBULENCE_MODEL"] = laminar ? "NONE" : sst ? "SST" : "SA";
     // Upstream, SST has the turbulence that NASA's Turbulence Modeling Resource recommends: k is 9e-9 times the square
     // of the speed of sound. Spalart-Allmaras has nuTilda / nu = 3, SU2's default.
     constexpr double k_over_sound_squared = 9e-9;
@@ -35,7 +37,8 @@ Words su2_words(const CaseFlow& flow) {
                                             "SST_OPTIONS= V2003m\nFREESTREAM_TURBULENCEINTENSITY= {:.4g}\n"
                                             "FREESTREAM_TURB2LAMVISCRATIO= 0.009",
                                             intensity)
-                                      : "SA_OPTIONS= NONE";
+                                  : laminar ? ""
+                                            : "SA_OPTIONS= NONE";
     // Up to this Mach number no flow round a section has a shock that is worth a limiter, which stalls where there is none.
     // Beyond, Roe's scheme needs no correction, and limits by the changes of an edge in 0.05 lengths (V. Venkatakrishnan,
     // J. Comput. Phys. 118 (1995)): RAE 2822 at Mach 0.734 settles within 300 iterations.
@@ -43,7 +46,7 @@ Words su2_words(const CaseFlow& flow) {
     words["SPEED_OPTIONS"] = flow.mach <= largest_low_mach
                                  ? "LOW_MACH_CORR= YES\nSLOPE_LIMITER_FLOW= NONE"
                                  : "LOW_MACH_CORR= NO\nSLOPE_LIMITER_FLOW= VENKATAKRISHNAN\nVENKAT_LIMITER_COEFF= 0.05";
-    words["SCREEN_TURBULENCE"] = sst ? "RMS_TKE" : "RMS_NU_TILDE";
+    words["SCREEN_TURBULENCE"] = laminar ? "RMS_ENERGY" : sst ? "RMS_TKE" : "RMS_NU_TILDE";
     words["MACH"] = fmt::format("{}", flow.mach);
     words["ALPHA"] = fmt::format("{}", flow.alpha_deg);
     words["REYNOLDS"] = fmt::format("{}", flow.reynolds);

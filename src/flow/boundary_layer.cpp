@@ -181,6 +181,7 @@ double thwaites_step(double squared_momentum, double speed0, double speed1, doub
 /// Says whether a laminar layer of the interval ends before t, where its momentum thickness is given.
 bool laminar_ends(const Interval& interval, double t, double squared_momentum, const BoundaryLayerOptions& options) {
     if (squared_momentum * interval.gradient(t) <= laminar_separation * options.viscosity) return true;
+    if (!options.turbulent) return false;
     const double reynolds = std::sqrt(squared_momentum) * interval.speed(t) / options.viscosity;
     return reynolds >= sustaining_reynolds && interval.s + t * interval.length >= options.transition.value_or(0);
 }
@@ -199,7 +200,18 @@ void start_turbulent(Layer& layer, double momentum, double shape, double speed, 
     layer.closure = close_turbulent(momentum, layer.flux, speed, viscosity);
 }
 
-/// Leads a laminar layer through the interval, or up to where it becomes turbulent. Returns the t where it ended.
+/// Separates a laminar layer at a place of an interval.
+void separate_laminar(Layer& layer, const Interval& interval, double t) {
+    const double momentum = std::sqrt(layer.squared_momentum), shape = laminar_shape(laminar_separation);
+    layer.separation = {momentum, shape * momentum, laminar_thickness(laminar_separation) * momentum, shape, 0,
+                        BoundaryLayerState::separated};
+    layer.separated_at = interval.s + t * interval.length;
+    layer.separation_speed = interval.speed(t);
+    layer.state = BoundaryLayerState::separated;
+}
+
+/// Leads a laminar layer through the interval, or up to where it becomes turbulent or separates for lack of turbulence.
+/// Returns the t where it ended.
 double march_laminar(Layer& layer, const Interval& interval, const BoundaryLayerOptions& options) {
     constexpr int steps = 4;
     for (int step = 0; step < steps; ++step) {
@@ -219,6 +231,10 @@ double march_laminar(Layer& layer, const Interval& interval, const BoundaryLayer
             (laminar_ends(interval, middle, squared_at(middle), options) ? end : begin) = middle;
         }
         layer.squared_momentum = squared_at(end);
+        if (!options.turbulent) {
+            separate_laminar(layer, interval, end);
+            return end;
+        }
         const double momentum = std::sqrt(layer.squared_momentum), speed = interval.speed(end);
         start_turbulent(layer, momentum, equilibrium_shape(speed * momentum / options.viscosity), speed,
                         options.viscosity);
@@ -294,9 +310,9 @@ LayerPoint separated_point(const Layer& layer, double s) {
 /// Leads a separated layer through the interval, or up to where it reattaches. Returns the t where it ended. The
 /// pressure under a separated layer is that where it left the wall, so it comes back where the pressure outside falls
 /// below that: where the edge speed exceeds that of separation. The turbulent layer goes on with the shape factor that
-/// it had when it separated, and with the thickness that it has got meanwhile.
-double march_separated(Layer& layer, const Interval& interval, double viscosity) {
-    if (!(interval.speed1 > layer.separation_speed)) return 1;
+/// it had when it separated, and with the thickness that it has got meanwhile. Without turbulence it does not come back.
+double march_separated(Layer& layer, const Interval& interval, const BoundaryLayerOptions& options) {
+    if (!options.turbulent || !(interval.speed1 > layer.separation_speed)) return 1;
     double begin = 0, end = 1;
     for (int i = 0; i < halvings; ++i) {
         const double middle = 0.5 * (begin + end);
@@ -304,7 +320,7 @@ double march_separated(Layer& layer, const Interval& interval, double viscosity)
     }
     const LayerPoint point = separated_point(layer, interval.s + end * interval.length);
     const double momentum = point.momentum * (point.thickness / layer.separation.thickness);
-    start_turbulent(layer, momentum, separation_shape, interval.speed(end), viscosity);
+    start_turbulent(layer, momentum, separation_shape, interval.speed(end), options.viscosity);
     return end;
 }
 
@@ -359,7 +375,7 @@ std::vector<LayerPoint> boundary_layer(std::span<const EdgePoint> points, const 
         }
         double t = 0;
         if (layer.state == BoundaryLayerState::laminar) t = march_laminar(layer, interval, options);
-        if (layer.state == BoundaryLayerState::separated) t = march_separated(layer, interval, options.viscosity);
+        if (layer.state == BoundaryLayerState::separated) t = march_separated(layer, interval, options);
         if (layer.state == BoundaryLayerState::turbulent) march_turbulent(layer, interval, t, options.viscosity);
         result.push_back(point_at_end(layer, interval, options.viscosity));
     }

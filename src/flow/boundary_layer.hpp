@@ -40,6 +40,9 @@ struct BoundaryLayerOptions {
     /// value the layer is turbulent as soon as it can be, as it is where a Reynolds-averaged computation has no model
     /// of transition. A value beyond the last point leaves the layer laminar until it separates.
     std::optional<double> transition{};
+    /// Whether the layer can be turbulent at all. One that cannot separates where its laminar solution
+    /// does, and does not reattach.
+    bool turbulent = true;
 };
 
 /// The smallest Reynolds number, made with momentum thickness and edge speed, at which a boundary layer becomes

@@ -115,8 +115,9 @@ std::vector<EdgePoint> edge_speeds(const std::vector<FlowPoint>& side) {
     return edge;
 }
 
-void add_boundary_layer(std::vector<FlowPoint>& side, double viscosity) {
-    const std::vector<LayerPoint> layer = boundary_layer(edge_speeds(side), {.viscosity = viscosity});
+void add_boundary_layer(std::vector<FlowPoint>& side, double viscosity, bool turbulent) {
+    const std::vector<LayerPoint> layer =
+        boundary_layer(edge_speeds(side), {.viscosity = viscosity, .turbulent = turbulent});
     for (std::size_t i = 0; i < side.size(); ++i) {
         side[i].momentum = layer[i].momentum;
         side[i].displacement = layer[i].displacement;
@@ -155,8 +156,8 @@ Flow solve_flow(const Geometry& geometry, const FlowConditions& conditions) {
         ElementFlow& element = flow.elements[e];
         element.name = geometry.elements[e].name;
         if (!reference.reynolds) continue;
-        add_boundary_layer(element.upper, flow.chord / *reference.reynolds);
-        add_boundary_layer(element.lower, flow.chord / *reference.reynolds);
+        for (auto* side : {&element.upper, &element.lower})
+            add_boundary_layer(*side, flow.chord / *reference.reynolds, !is_laminar(reference));
     }
     if (std::optional<Warning> wide; reference.reynolds && (wide = find_wide_wake(flow)))
         flow.warnings.push_back(std::move(*wide));

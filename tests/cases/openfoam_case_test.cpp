@@ -31,7 +31,8 @@ std::vector<SolverCaseFile> openfoam_files(const SolverConditions& conditions, c
 TEST(SolverCase, NoPlaceholderIsLeft) {
     const std::regex placeholder("@[A-Z_]+@");
     for (const auto& [name, solver] : flow_solvers())
-        for (const auto turbulence : {TurbulenceModel::spalart_allmaras, TurbulenceModel::k_omega_sst})
+        for (const auto turbulence :
+             {TurbulenceModel::spalart_allmaras, TurbulenceModel::k_omega_sst, TurbulenceModel::laminar})
             for (const bool special : {false, true}) {
                 SolverConditions conditions = some_conditions();
                 conditions.wall_functions = special;
@@ -111,6 +112,7 @@ TEST(OpenFoamCase, EveryFieldHasEveryPatch) {
     constexpr auto sa = TurbulenceModel::spalart_allmaras, sst = TurbulenceModel::k_omega_sst;
     EXPECT_EQ(fields_of({.turbulence = sa}), (Names{"U", "nuTilda", "nut", "p"}));
     EXPECT_EQ(fields_of({.turbulence = sst}), (Names{"U", "k", "nut", "omega", "p"}));
+    EXPECT_EQ(fields_of({.turbulence = TurbulenceModel::laminar}), (Names{"U", "p"}));
     EXPECT_EQ(fields_of({.turbulence = sa, .compressible = true}), (Names{"T", "U", "alphat", "nuTilda", "nut", "p"}));
     EXPECT_EQ(fields_of({.turbulence = sst, .compressible = true}),
               (Names{"T", "U", "alphat", "k", "nut", "omega", "p"}));

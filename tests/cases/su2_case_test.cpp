@@ -41,7 +41,8 @@ TEST(Su2Case, EveryOptionIsOneOfSu2) {
     for (std::string line; std::getline(words, line);)
         if (!line.starts_with('#')) known.insert(line);
     EXPECT_GT(known.size(), 60u);
-    for (const auto turbulence : {TurbulenceModel::spalart_allmaras, TurbulenceModel::k_omega_sst})
+    for (const auto turbulence :
+         {TurbulenceModel::spalart_allmaras, TurbulenceModel::k_omega_sst, TurbulenceModel::laminar})
         for (const auto& [name, value] : options_of_case(some_conditions(), {.turbulence = turbulence}))
             EXPECT_TRUE(known.contains(name)) << name;
 }
@@ -59,6 +60,20 @@ TEST(Su2Case, HasASchemeForEachMachNumber) {
         for (const FlowSolver solver : {FlowSolver::su2, FlowSolver::openfoam})
             EXPECT_EQ(far_field_for(solver, mach) < far_field_for(solver), mach >= 1) << mach;
     }
+}
+
+/// Below a Reynolds number of 1e4 cases are laminar, unless they are asked for a model.
+TEST(Su2Case, IsLaminarAtLowReynoldsNumbers) {
+    SolverConditions conditions = some_conditions();
+    conditions.reference.reynolds = 5000;
+    auto options = options_of_case(conditions);
+    EXPECT_EQ(options["SOLVER"], "NAVIER_STOKES");
+    EXPECT_EQ(options["KIND_TURB_MODEL"], "NONE");
+    EXPECT_EQ(options["SCREEN_OUTPUT"].find("NU_TILDE"), std::string::npos);
+    EXPECT_EQ(options_of_case(conditions, {.turbulence = TurbulenceModel::k_omega_sst})["KIND_TURB_MODEL"], "SST");
+    conditions.reference.reynolds = 1e4;
+    EXPECT_EQ(options_of_case(conditions)["SOLVER"], "RANS");
+    EXPECT_EQ(options_of_case(conditions, {.turbulence = TurbulenceModel::laminar})["SOLVER"], "NAVIER_STOKES");
 }
 
 TEST(Su2Case, SaysTheFlow) {

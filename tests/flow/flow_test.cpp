@@ -210,6 +210,22 @@ TEST(Flow, SaysWhereItDoesNotStayAtTheWalls) {
     EXPECT_TRUE(solve_flow(geometry({shapes::circle(1, 100)})).warnings.empty()) << "no boundary layers";
 }
 
+/// Thwaites' method separates potential flow round a cylinder at 103.1 degrees from the stagnation point (F. M. White,
+/// Viscous Fluid Flow, 3rd ed. (2006), section 4-6.6), at any Reynolds number. Turbulent layers go on beyond.
+TEST(Flow, IsLaminarAtLowReynoldsNumbers) {
+    const auto separation_deg = [](double reynolds) {
+        const Flow flow = solve_flow(geometry({shapes::circle(1, 200)}), {.reynolds = reynolds});
+        const auto& side = flow.elements[0].upper;
+        const auto at = std::find_if(side.begin(), side.end(),
+                                     [](const FlowPoint& p) { return p.state == BoundaryLayerState::separated; });
+        for (auto p = side.begin(); p != at; ++p)
+            EXPECT_EQ(p->state == BoundaryLayerState::turbulent && reynolds < 1e4, false);
+        return at == side.end() ? 180 : 180 / std::acos(-1) * at->s;
+    };
+    for (const double reynolds : {40.0, 100.0, 9999.0}) EXPECT_NEAR(separation_deg(reynolds), 103.1, 2) << reynolds;
+    EXPECT_GT(separation_deg(1e5), 110);
+}
+
 TEST(Flow, AnyBodyIsSolvedOrEstimated) {
     for (const Outline& outline :
          {shapes::wedge(), shapes::diamond(), shapes::box(), shapes::l_shape(), shapes::c_shape(0.2),
