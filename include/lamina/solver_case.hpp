@@ -43,6 +43,9 @@ struct SolverCaseOptions {
 /// Returns the table of these options, with names, ranges and help.
 LAMINA_EXPORT const OptionTable<SolverCaseOptions>& solver_case_option_table();
 
+/// Throws OptionError where no case of the solver is for a flow of this Mach number, which may be missing.
+LAMINA_EXPORT void validate(FlowSolver solver, const SolverCaseOptions& options, const std::optional<double>& mach);
+
 /// Returns the solvers by their names on the command line: "openfoam", "su2".
 LAMINA_EXPORT const std::vector<std::pair<std::string, FlowSolver>>& flow_solvers();
 

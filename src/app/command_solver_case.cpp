@@ -96,6 +96,7 @@ void make_case(const CaseArguments& arguments) {
     mesh_case.outputs = {arguments.folder};
     mesh_case.format.clear();
     options.compressible = mesh_case.options.conditions.mach.has_value();
+    validate(solver, options, mesh_case.options.conditions.mach);
     apply_preferences(solver, mesh_case);
     require_consistent(mesh_case);
     if (const LayerOptions& layer = mesh_case.options.layer;

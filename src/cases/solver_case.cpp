@@ -103,9 +103,7 @@ CaseFlow case_flow(FlowSolver solver, const Mesh& mesh, const SolverConditions& 
                    const SolverCaseOptions& options) {
     const auto& [chord, alpha_deg, reynolds, mach] = conditions.reference;
     if (!reynolds) throw OptionError("reynolds", "a case needs it, or velocity and viscosity");
-    if (options.compressible && !mach) throw OptionError("mach", "a compressible flow needs it");
-    if (options.compressible && solver == FlowSolver::openfoam && !(*mach > 0 && *mach < 1))
-        throw OptionError("mach", fmt::format("must be above 0 and below 1 in a case of OpenFOAM, not {}", *mach));
+    validate(solver, options, mach);
     CaseFlow flow;
     flow.chord = chord;
     flow.alpha_deg = alpha_deg;
@@ -152,6 +150,14 @@ const std::vector<std::pair<std::string, FlowSolver>>& flow_solvers() {
         return list;
     }();
     return names;
+}
+
+void validate(FlowSolver solver, const SolverCaseOptions& options, const std::optional<double>& mach) {
+    if (!options.compressible) return;
+    if (!mach) throw OptionError("mach", "a compressible flow needs it");
+    if (solver == FlowSolver::openfoam && !(*mach > 0 && *mach < 1))
+        throw OptionError(
+            "mach", fmt::format("must be above 0 and below 1 in a case of OpenFOAM, not {}: su2 takes more", *mach));
 }
 
 double far_field_for(FlowSolver solver, double mach) {
