@@ -52,11 +52,9 @@ public:
         std::optional<Crossing> best;
         core::BoxTree(std::move(boxes)).overlapping_pairs([&](std::size_t i, std::size_t j) {
             if (i >= behind_count || j < behind_count || i + (j - behind_count) == 0) return;
-            const std::optional<Crossing> found = crossing(j - behind_count, i);
-            if (!found || (best && std::pair{best->before + best->behind, best->before} >=
-                                       std::pair{found->before + found->behind, found->before}))
-                return;
-            best = found;
+            const std::size_t k = j - behind_count;
+            if (best && std::pair{best->before + best->behind, best->before} >= std::pair{k + i, k}) return;
+            if (const std::optional<Crossing> found = crossing(k, i)) best = found;
         });
         return best;
     }
@@ -96,8 +94,18 @@ private:
         const double denominator = cross(b - a, d - c);
         if (denominator == 0) return std::nullopt;  // they overlap: check_simple() refuses them
         const Crossing found{k_before, k_behind, a + (cross(c - a, d - c) / denominator) * (b - a)};
-        if (length(found) > reach_) return std::nullopt;
+        if (!is_within_reach(found)) return std::nullopt;
         return found;
+    }
+
+    /// Returns whether length() is within reach. The rearmost vertex, which comes first, is mostly the farthest.
+    bool is_within_reach(const Crossing& crossing) const {
+        const auto is_near = [&](const SourcePoint& p) { return distance(p.at, crossing.at) <= reach_; };
+        for (std::size_t k = 0; k <= crossing.behind; ++k)
+            if (!is_near(behind(k))) return false;
+        for (std::size_t k = 1; k <= crossing.before; ++k)
+            if (!is_near(before(k))) return false;
+        return true;
     }
 };
 
