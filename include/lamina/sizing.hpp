@@ -35,7 +35,7 @@ inline double size_for_area(double area, double max_area_ratio) {
 /// A shape that requests a target edge length on it and round it: h(p) <= size + gradation x distance(p, shape). A
 /// point inside a box, or within `radius` of the shape, is at distance 0.
 struct SizeSource {
-    /// The shape between a and b.
+    /// The shape between a and b. It lies in the box that they span.
     enum class Shape : std::uint8_t {
         segment,  ///< from a to b; a point where they are equal
         box,      ///< axis-parallel; a is the lower and b the upper corner

@@ -12,31 +12,6 @@ namespace lamina::sizing {
 
 namespace {
 
-/// The smaller and the larger one of two numbers. Unlike std::min() and std::max() they take numbers by value, and
-/// compilers apply them to several pairs at once.
-double smaller(double a, double b) { return a < b ? a : b; }
-double larger(double a, double b) { return a > b ? a : b; }
-
-/// Returns the squared distances of points from a shape without its radius.
-template <std::size_t N>
-std::array<double, N> squared_distances(const SourceShape& shape, const std::array<double, N>& x,
-                                        const std::array<double, N>& y) {
-    std::array<double, N> squared;
-    if (shape.shape == SizeSource::Shape::box) {
-        for (std::size_t k = 0; k < N; ++k) squared[k] = shape.squared_distance_to({x[k], y[k]});
-        return squared;
-    }
-    const Point a = shape.a, along = shape.along;
-    const double inverse = shape.inverse_squared_length;
-    for (std::size_t k = 0; k < N; ++k) {
-        const double ax = x[k] - a.x, ay = y[k] - a.y;
-        const double t = smaller(larger((ax * along.x + ay * along.y) * inverse, 0.0), 1.0);
-        const double dx = ax - t * along.x, dy = ay - t * along.y;
-        squared[k] = dx * dx + dy * dy;
-    }
-    return squared;
-}
-
 /// Returns the distances of a box from quadrants.
 Quadrants::Numbers distances(const Box& box, const Quadrants& quadrants) {
     Quadrants::Numbers apart;
@@ -95,9 +70,9 @@ void LowerEnvelope::find_source(std::uint32_t index, const Quadrants& quadrants,
     if (below == 0) return;
     lower_bounds(quadrants, apart, values, bounds.nearest, bounds.lowest);
     sources_found_.push_back({index, below});
-    if (!shape.has_inside()) return;
+    if (!has_inside(shape)) return;
     for (std::size_t q = 0; q < Quadrants::count; ++q)
-        if ((below >> q & 1) != 0 && apart[q] <= 0 && size < bounds.covering[q] && shape.covers(quadrants.box(q)))
+        if ((below >> q & 1) != 0 && apart[q] <= 0 && size < bounds.covering[q] && covers(shape, quadrants.box(q)))
             bounds.covering[q] = size;
 }
 
@@ -185,7 +160,7 @@ double LowerEnvelope::evaluate_group(std::uint32_t index, Point p, double best) 
                 at = low;
                 continue;
             }
-            best = smaller(best, group.min_size + gradation_ * shapes_[group.shape].distance_to(p));
+            best = smaller(best, group.min_size + gradation_ * distance_to(shapes_[group.shape], p));
         }
         if (pending_at_point_.empty()) return best;
         at = pending_at_point_.back();

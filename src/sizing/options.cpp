@@ -3,6 +3,8 @@
 
 #include <lamina/option_builders.hpp>
 
+#include "sizing/shapes.hpp"
+
 namespace lamina {
 
 namespace {
@@ -23,8 +25,8 @@ OptionTable<SizingOptions> make_table() {
         "without a wake); may be given several times",
         parse_wake, wake_text, member_at(&SizingOptions::wakes));
     table.specs("refine", "SHAPE",
-                "edge length H in and round a shape, box:X0,Y0,X1,Y1,H, circle:X,Y,R,H or line:X0,Y0,X1,Y1,H, in units "
-                "of the input; may be given several times",
+                "edge length H in and round a shape, " + sizing::source_forms() +
+                    ", in units of the input; may be given several times",
                 parse_size_source, size_source_text, member_at(&SizingOptions::sources));
     return table.take();
 }

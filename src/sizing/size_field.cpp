@@ -10,6 +10,7 @@
 #include <lamina/error.hpp>
 
 #include "core/bounding_box.hpp"
+#include "sizing/shapes.hpp"
 #include "sizing/size_tree.hpp"
 
 namespace lamina::sizing {
@@ -30,8 +31,7 @@ void require_valid(std::span<const SizeSource> sources, const SizeFieldOptions& 
         if (!(s.size > 0 && s.size < HUGE_VAL)) throw OptionError("sources", "a size must be positive and finite");
         if (!(s.radius >= 0 && s.radius < HUGE_VAL))
             throw OptionError("sources", "a radius must be finite and not negative");
-        if (s.shape == SizeSource::Shape::box && !(s.a.x <= s.b.x && s.a.y <= s.b.y))
-            throw OptionError("sources", "a box is empty");
+        if (const char* const fault = shape_fault(s)) throw OptionError("sources", fault);
     }
 }
 

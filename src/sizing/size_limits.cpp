@@ -11,7 +11,7 @@
 #include <lamina/limits.hpp>
 #include <lamina/threads.hpp>
 
-#include "core/reproducible_math.hpp"
+#include "sizing/shapes.hpp"
 #include "sizing/wake.hpp"
 
 namespace lamina::sizing {
@@ -34,37 +34,9 @@ double integral_beside(double length, double size, double gradation, double reac
     return length * reach / (size * (size + gradation * reach));
 }
 
-/// Returns the length of the part of a segment that lies in a box.
-double length_inside(const Box& box, Point a, Point b) {
-    double from = 0, to = 1;
-    const auto clip = [&](double start, double along, double lower, double upper) {
-        if (along == 0) {
-            if (start < lower || start > upper) to = -1;
-            return;
-        }
-        const double enter = (lower - start) / along, leave = (upper - start) / along;
-        from = std::max(from, std::min(enter, leave));
-        to = std::min(to, std::max(enter, leave));
-    };
-    clip(a.x, b.x - a.x, box.lower.x, box.upper.x);
-    clip(a.y, b.y - a.y, box.lower.y, box.upper.y);
-    return std::max(to - from, 0.0) * distance(a, b);
-}
-
 /// Returns the integral of 1 / h^2 in and beside a source, as far as it lies in the domain.
 double integral_round(const SizeSource& source, double gradation, double reach, const Box& domain) {
-    const Box inside = bounding_box(source).intersection(domain);
-    const double width = std::max(inside.width(), 0.0), height = std::max(inside.height(), 0.0);
-    double area = 0, border = 0;
-    if (source.shape == SizeSource::Shape::box) {
-        area = width * height;
-        border = 2 * (width + height);
-    } else if (source.radius > 0) {
-        area = 0.25 * core::pi * width * height;
-        border = 0.5 * core::pi * (width + height);
-    } else {
-        border = 2 * length_inside(domain, source.a, source.b);
-    }
+    const auto [area, border] = extent_in(domain, source);
     return area / (source.size * source.size) + integral_beside(border, source.size, gradation, reach);
 }
 

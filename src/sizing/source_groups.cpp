@@ -2,6 +2,7 @@
 // other members, so that both halves are the same sets whatever the order of the sources.
 #include "sizing/source_groups.hpp"
 
+#include <algorithm>
 #include <tuple>
 
 #include "core/parallel.hpp"
@@ -61,18 +62,6 @@ void make_groups(std::span<SizeSource> sources, std::uint32_t index, std::uint32
 
 }  // namespace
 
-bool SourceShape::covers_corners(const Box& box) const {
-    // The shape is convex: it holds a box if it holds the box's corners.
-    const std::array<Point, 4> corners = box.corners();
-    return std::all_of(corners.begin(), corners.end(), [&](Point p) { return distance_to(p) == 0; });
-}
-
-SourceShape prepare_shape(const SizeSource& s) {
-    const Point along = s.b - s.a;
-    const double squared = squared_length(along);
-    return {s.a, along, squared > 0 ? 1.0 / squared : 0.0, s.radius, s.shape};
-}
-
 SourceTree group_sources(std::span<const SizeSource> sources) {
     SourceTree tree;
     if (sources.empty()) return tree;
@@ -84,19 +73,3 @@ SourceTree group_sources(std::span<const SizeSource> sources) {
 }
 
 }  // namespace lamina::sizing
-
-namespace lamina {
-
-using namespace sizing;
-
-double distance_to(const SizeSource& source, Point p) { return prepare_shape(source).distance_to(p); }
-
-Box bounding_box(const SizeSource& source) {
-    Box box;
-    box.include(source.a);
-    box.include(source.b);
-    const Point margin{source.radius, source.radius};
-    return {box.lower - margin, box.upper + margin};
-}
-
-}  // namespace lamina

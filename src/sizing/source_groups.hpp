@@ -1,7 +1,6 @@
-// Sources of the size field, prepared for distances and grouped by place.
+// Sources of the size field, grouped by place.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <span>
@@ -10,34 +9,9 @@
 #include <lamina/sizing.hpp>
 
 #include "core/bounding_box.hpp"
-#include "core/box_tree.hpp"
+#include "sizing/shapes.hpp"
 
 namespace lamina::sizing {
-
-/// The shape of a source, prepared for distances.
-struct SourceShape {
-    Point a, along;                 ///< along = b - a of SizeSource
-    double inverse_squared_length;  ///< 1 / |along|^2; 0 for a point
-    double radius;
-    SizeSource::Shape shape;
-
-    /// Returns the squared distance from p to the shape without its radius.
-    double squared_distance_to(Point p) const {
-        if (shape == SizeSource::Shape::box) return core::squared_distance(Box{a, a + along}, p);
-        const Point ap = p - a;
-        const double t = std::clamp(dot(ap, along) * inverse_squared_length, 0.0, 1.0);
-        return squared_length(ap - t * along);
-    }
-    /// Returns the distance from p to the shape; 0 inside it.
-    double distance_to(Point p) const { return std::max(std::sqrt(squared_distance_to(p)) - radius, 0.0); }
-    /// Returns whether the box lies inside the shape.
-    bool covers(const Box& box) const { return has_inside() && covers_corners(box); }
-    bool has_inside() const { return radius > 0 || shape == SizeSource::Shape::box; }
-
-private:
-    bool covers_corners(const Box& box) const;
-};
-SourceShape prepare_shape(const SizeSource& source);
 
 /// A node of a binary tree of sources: a group of several sources, or a single one.
 struct SourceGroup {

@@ -1,9 +1,13 @@
-// Wakes are cut off at walls and divided into segments of growing size.
+// Wakes are read from texts such as "10:2:0.01", cut off at walls, and divided into segments of growing size.
 #include "sizing/wake.hpp"
 
 #include <algorithm>
+#include <cmath>
+
+#include <lamina/option_builders.hpp>
 
 #include "core/reproducible_math.hpp"
+#include "core/text.hpp"
 
 namespace lamina::sizing {
 
@@ -67,3 +71,26 @@ std::vector<SizeSource> given_wake_sources(const WakeOptions& options, const Siz
 }
 
 }  // namespace lamina::sizing
+
+namespace lamina {
+
+WakeOptions parse_wake(const std::string& text) {
+    const std::vector<std::string> parts = core::split(text, ':');
+    core::require_text(parts.size() <= 3, text, "a wake is ANGLE[:LENGTH[:SIZE]]");
+    WakeOptions wake;
+    if (parts[0] != auto_word) wake.angle_deg = core::parse_number(parts[0]);
+    core::require_text(std::abs(wake.angle_deg.value_or(0)) <= 360, text, "the angle must be from -360 to 360 degrees");
+    if (parts.size() > 1) wake.length = parse_length(parts[1]);
+    core::require_text(wake.length.value > 0, text, "the length must be > 0");
+    if (parts.size() > 2) wake.size = parse_length(parts[2]);
+    core::require_text(wake.size.value_or(1).value > 0, text, "the size must be > 0");
+    return wake;
+}
+
+std::string wake_text(const WakeOptions& wake) {
+    const std::string angle = wake.angle_deg ? core::to_text(*wake.angle_deg) : auto_word;
+    const std::string text = core::concat(angle, ":", length_text(wake.length));
+    return wake.size ? core::concat(text, ":", length_text(*wake.size)) : text;
+}
+
+}  // namespace lamina
