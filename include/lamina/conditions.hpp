@@ -4,7 +4,6 @@
 #include <optional>
 
 #include <lamina/export.hpp>
-#include <lamina/option.hpp>
 #include <lamina/point.hpp>
 
 namespace lamina {
@@ -18,9 +17,6 @@ struct FlowConditions {
     std::optional<double> velocity{};   ///< of the free stream, in units of the input per second
     std::optional<double> viscosity{};  ///< kinematic viscosity, in squared units of the input per second
 };
-
-/// Returns the table of these options, with names, ranges and help.
-LAMINA_EXPORT const OptionTable<FlowConditions>& conditions_option_table();
 
 /// Throws OptionError where an option is out of range, where velocity and viscosity are not given together, and where
 /// both they and the Reynolds number are given.

@@ -13,7 +13,6 @@
 #include <lamina/export.hpp>
 #include <lamina/ids.hpp>
 #include <lamina/length.hpp>
-#include <lamina/option.hpp>
 #include <lamina/point.hpp>
 #include <lamina/sizing.hpp>
 
@@ -36,9 +35,6 @@ struct FarFieldOptions {
     std::optional<Length> tunnel{};
     std::optional<Length> ground{};  ///< distance of flat ground, a slip wall, below the lowest point
 };
-
-/// Returns the table of these options, with names, ranges and help.
-LAMINA_EXPORT const OptionTable<FarFieldOptions>& far_field_option_table();
 
 /// Throws OptionError where an option is out of range, and where the outline is no convex polygon.
 LAMINA_EXPORT void validate(const FarFieldOptions& options);

@@ -13,7 +13,6 @@
 #include <lamina/angle_bounds.hpp>
 #include <lamina/export.hpp>
 #include <lamina/ids.hpp>
-#include <lamina/option.hpp>
 #include <lamina/point.hpp>
 #include <lamina/sizing.hpp>
 #include <lamina/triangulation.hpp>
@@ -24,9 +23,6 @@ namespace lamina {
 
 /// Throws OptionError where an option is out of range.
 LAMINA_EXPORT void validate(const DecompositionOptions& options);
-
-/// Returns the table of the options of constrained triangulation that are numbers.
-LAMINA_EXPORT const OptionTable<ConstrainedOptions>& constrained_option_table();
 
 // ---- refinement ----
 
@@ -65,9 +61,6 @@ struct RefineOptions {
     /// Number of triangles that memory is reserved for; 0: an estimate. It never changes the result.
     std::size_t expected_triangles = 0;
 };
-
-/// Returns the table of these options, with names, ranges and help.
-LAMINA_EXPORT const OptionTable<RefineOptions>& refine_option_table();
 
 /// Throws OptionError where an option is out of range.
 LAMINA_EXPORT void validate(const RefineOptions& options);

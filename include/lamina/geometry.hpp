@@ -10,7 +10,6 @@
 
 #include <lamina/error.hpp>
 #include <lamina/export.hpp>
-#include <lamina/option.hpp>
 #include <lamina/point.hpp>
 #include <lamina/transformation.hpp>
 #include <lamina/warning.hpp>
@@ -94,9 +93,6 @@ struct GeometryOptions {
     bool mirror_half = false;  ///< whether files hold one half of symmetric sections, which is mirrored
     std::vector<Transformation> transformations{};  ///< applied in this order: transformed()
 };
-
-/// Returns the table of these options, with names, ranges and help.
-LAMINA_EXPORT const OptionTable<GeometryOptions>& geometry_option_table();
 
 /// Throws OptionError where an option is out of range.
 LAMINA_EXPORT void validate(const GeometryOptions& options);

@@ -17,7 +17,6 @@
 #include <lamina/geometry.hpp>
 #include <lamina/ids.hpp>
 #include <lamina/length.hpp>
-#include <lamina/option.hpp>
 #include <lamina/point.hpp>
 #include <lamina/sizing.hpp>
 
@@ -84,9 +83,6 @@ struct LayerOptions {
 /// Returns the number of parts of each fan with LayerOptions::equal_fans: as many as half a turn needs for none to exceed
 /// the largest angle between rays. Corners turn by less.
 LAMINA_EXPORT std::uint32_t equal_fan_parts(const LayerOptions& options);
-
-/// Returns the table of these options, with names, ranges and help.
-LAMINA_EXPORT const OptionTable<LayerOptions>& layer_option_table();
 
 /// Throws OptionError where an option is out of range, or where the growth law lacks a number that it needs
 /// (exponential: 2 layers or more and a thickness; adaptive: a number of layers).

@@ -12,7 +12,6 @@
 #include <lamina/export.hpp>
 #include <lamina/ids.hpp>
 #include <lamina/marker_names.hpp>
-#include <lamina/option.hpp>
 #include <lamina/point.hpp>
 
 namespace lamina {
@@ -189,9 +188,6 @@ struct MeshCheckOptions {
     /// several times, but needs at least 64 MiB and 4 bytes for each vertex. Empty: no limit. The result is the same.
     std::optional<std::size_t> max_memory_bytes{};
 };
-
-/// Returns the table of these options, with names, ranges and help.
-LAMINA_EXPORT const OptionTable<MeshCheckOptions>& mesh_check_option_table();
 
 /// Throws OptionError where an option is out of range.
 LAMINA_EXPORT void validate(const MeshCheckOptions& options);

@@ -86,6 +86,12 @@ struct Option {
 template <class Options>
 using OptionTable = std::vector<Option<Options>>;
 
+/// Returns the table of an options struct, with names, ranges and help: ConstrainedOptions, FarFieldOptions,
+/// FlowConditions, GeometryOptions, LayerOptions, MeshCheckOptions, PlotOptions, RefineOptions, SizingOptions,
+/// SolutionSizeOptions, SolverCaseOptions and SurfaceOptions have one, and CaseOptions one of the rows of all stages.
+template <class Options>
+LAMINA_EXPORT const OptionTable<Options>& option_table();
+
 /// Returns the row of this name. Precondition: the table has one.
 template <class Options>
 const Option<Options>& find_row(const OptionTable<Options>& table, const std::string& name) {

@@ -29,7 +29,6 @@
 #include <lamina/layers.hpp>
 #include <lamina/limits.hpp>
 #include <lamina/mesh.hpp>
-#include <lamina/option.hpp>
 #include <lamina/sizing.hpp>
 #include <lamina/surface.hpp>
 #include <lamina/warning.hpp>
@@ -41,7 +40,7 @@ struct AssembleOptions {
     bool base_marker = false;  ///< gives the base of a blunt trailing edge a marker of its own, NAME_base
 };
 
-/// The options of all stages. Together with the inputs they determine the mesh.
+/// The options of all stages, with the defaults of the command line. Together with the inputs they determine the mesh.
 struct CaseOptions {
     GeometryOptions geometry{};            ///< read_geometry()
     FlowConditions conditions{};           ///< reference_conditions(): the chord that lengths count, and y+
@@ -63,10 +62,6 @@ struct CaseOptions {
     WorkLimits limits{};        ///< generate_mesh() refuses what is beyond them, before the work
     unsigned threads = 0;       ///< number of threads; 0: one per core. Never changes the mesh
 };
-
-/// Returns the table of the options of all stages, with names, ranges and help. The defaults of CaseOptions are those
-/// of the command line.
-LAMINA_EXPORT const OptionTable<CaseOptions>& case_option_table();
 
 /// Throws OptionError where an option of any stage is out of range, where a y+ or the use of the flow lacks its Reynolds
 /// number, and where the flow is to cross the slip walls of a tunnel or the ground.

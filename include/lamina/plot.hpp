@@ -10,7 +10,6 @@
 
 #include <lamina/export.hpp>
 #include <lamina/mesh.hpp>
-#include <lamina/option.hpp>
 #include <lamina/point.hpp>
 
 namespace lamina {
@@ -40,9 +39,6 @@ struct PlotOptions {
     bool color_bar = false;              ///< whether a bar in the picture explains colours that stand for numbers
     std::string format{};                ///< "png", "svg" or "pdf"; empty: by the extension of the file
 };
-
-/// Returns the table of these options, with names, ranges and help.
-LAMINA_EXPORT const OptionTable<PlotOptions>& plot_option_table();
 
 /// Throws OptionError where an option is out of range.
 LAMINA_EXPORT void validate(const PlotOptions& options);

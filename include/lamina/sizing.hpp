@@ -13,7 +13,6 @@
 #include <lamina/export.hpp>
 #include <lamina/ids.hpp>
 #include <lamina/length.hpp>
-#include <lamina/option.hpp>
 #include <lamina/point.hpp>
 
 namespace lamina {
@@ -155,9 +154,6 @@ struct SizingOptions {
     /// more than a tenth plus the relative error of the field.
     std::shared_ptr<const SizedMesh> background{};
 };
-
-/// Returns the table of these options, with names, ranges and help.
-LAMINA_EXPORT const OptionTable<SizingOptions>& sizing_option_table();
 
 /// Throws OptionError where an option is out of range.
 LAMINA_EXPORT void validate(const SizingOptions& options);

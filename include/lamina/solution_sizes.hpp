@@ -8,7 +8,6 @@
 
 #include <lamina/export.hpp>
 #include <lamina/mesh.hpp>
-#include <lamina/option.hpp>
 #include <lamina/sizing.hpp>
 #include <lamina/solution.hpp>
 
@@ -42,9 +41,6 @@ struct SolutionSizeOptions {
     /// layers stay as they are. Without that, the number of vertices can only be known by making the mesh.
     bool keep_borders = true;
 };
-
-/// Returns the table of these options, with names, ranges and help.
-LAMINA_EXPORT const OptionTable<SolutionSizeOptions>& solution_size_option_table();
 
 /// Throws OptionError where an option is out of range.
 LAMINA_EXPORT void validate(const SolutionSizeOptions& options);

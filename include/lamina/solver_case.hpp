@@ -12,7 +12,6 @@
 #include <lamina/export.hpp>
 #include <lamina/flow.hpp>
 #include <lamina/mesh.hpp>
-#include <lamina/option.hpp>
 #include <lamina/point.hpp>
 #include <lamina/warning.hpp>
 
@@ -39,9 +38,6 @@ struct SolverCaseOptions {
     /// Whether OpenFOAM's case is that of a gas, at ReferenceConditions::mach, above 0 and below 1. SU2's always is.
     bool compressible = false;
 };
-
-/// Returns the table of these options, with names, ranges and help.
-LAMINA_EXPORT const OptionTable<SolverCaseOptions>& solver_case_option_table();
 
 /// Throws OptionError where no case of the solver is for a flow of this Mach number, which may be missing.
 LAMINA_EXPORT void validate(FlowSolver solver, const SolverCaseOptions& options, const std::optional<double>& mach);

@@ -50,9 +50,6 @@ struct SurfaceOptions {
     double tolerance = 5e-5;              ///< largest distance of an edge from the curve
 };
 
-/// Returns the table of these options, with names, ranges and help.
-LAMINA_EXPORT const OptionTable<SurfaceOptions>& surface_option_table();
-
 /// Throws OptionError where an option is out of range.
 LAMINA_EXPORT void validate(const SurfaceOptions& options);
 

@@ -32,7 +32,8 @@ OptionTable<MeshRequest> make_request_table() {
                    "is given, else none",
                    preset_choices(), member_at(&MeshRequest::preset));
     OptionTable<MeshRequest> table = presets.take();
-    for (Option<MeshRequest>& row : nested_table<MeshRequest>(case_option_table(), member_at(&MeshRequest::options)))
+    for (Option<MeshRequest>& row :
+         nested_table<MeshRequest>(option_table<CaseOptions>(), member_at(&MeshRequest::options)))
         if (!row.library_only) table.push_back(std::move(row));
     const auto set_background = [](MeshRequest& request, const OptionValue& value) {
         request.options.sizing.background = std::make_shared<const SizedMesh>(read_sizes(as_word(value, "background")));

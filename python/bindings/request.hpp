@@ -18,7 +18,7 @@ struct MeshRequest {
     bool allow_defects = false;             ///< whether a mesh with angles below the bound is returned
 };
 
-/// Returns the table of the options: those of case_option_table() that are for users, and those of the module.
+/// Returns the table of the options: those of option_table<CaseOptions>() that are for users, and those of the module.
 const OptionTable<MeshRequest>& request_table();
 
 /// Returns the request with these values of options, named as in Python. Throws OptionError for unknown names and wrong

@@ -1,12 +1,12 @@
 // The table of the options of solution_sizes().
-#include <lamina/option_builders.hpp>
 #include <lamina/solution_sizes.hpp>
+
+#include "core/option_rows.hpp"
 
 namespace lamina {
 
-namespace {
-
-OptionTable<SolutionSizeOptions> make_table() {
+template <>
+OptionTable<SolutionSizeOptions> option_rows() {
     OptionTableBuilder<SolutionSizeOptions> table("Sizes");
     table.number("vertices", "N", "number of vertices that the next mesh is to have", numbers_from_to(10, 4e9),
                  member_at(&SolutionSizeOptions::vertices));
@@ -16,14 +16,8 @@ OptionTable<SolutionSizeOptions> make_table() {
                  numbers_above(1), member_at(&SolutionSizeOptions::max_change));
     return table.take();
 }
+template LAMINA_EXPORT const OptionTable<SolutionSizeOptions>& option_table();
 
-}  // namespace
-
-const OptionTable<SolutionSizeOptions>& solution_size_option_table() {
-    static const OptionTable<SolutionSizeOptions> table = make_table();
-    return table;
-}
-
-void validate(const SolutionSizeOptions& options) { require_in_range(solution_size_option_table(), options); }
+void validate(const SolutionSizeOptions& options) { require_in_range(option_table<SolutionSizeOptions>(), options); }
 
 }  // namespace lamina

@@ -51,7 +51,7 @@ void require_marker(std::vector<Marker>& markers, const std::string& name, Marke
 /// Throws UsageError where the text is no size.
 WorkLimits memory_limit(const std::string& text) {
     CaseOptions options;
-    set_by_name(case_option_table(), "max-memory", text, options);
+    set_by_name(option_table<CaseOptions>(), "max-memory", text, options);
     return options.limits;
 }
 
@@ -93,8 +93,8 @@ void require_angles(const QualitySummary& isotropic, double min_angle_deg, Short
 
 void check(const CheckArguments& arguments) {
     MeshCheckOptions options;
-    set_by_name(mesh_check_option_table(), "min-angle", arguments.min_angle, options);
-    set_by_name(mesh_check_option_table(), "first-height", arguments.first_height, options);
+    set_by_name(option_table<MeshCheckOptions>(), "min-angle", arguments.min_angle, options);
+    set_by_name(option_table<MeshCheckOptions>(), "first-height", arguments.first_height, options);
 
     require_format(arguments.mesh, arguments.format, "--input-format");
     const std::string name = input_name(arguments.mesh);
@@ -142,8 +142,8 @@ void add_check_command(CLI::App& app) {
         ->type_name("NAME");
     command->add_flag("--require-delaunay", arguments->require_delaunay,
                       "require the Delaunay property of all edges between isotropic triangles (exact test)");
-    add_table_option(*command, mesh_check_option_table(), "min-angle", arguments->min_angle);
-    add_table_option(*command, mesh_check_option_table(), "first-height", arguments->first_height);
+    add_table_option(*command, option_table<MeshCheckOptions>(), "min-angle", arguments->min_angle);
+    add_table_option(*command, option_table<MeshCheckOptions>(), "first-height", arguments->first_height);
     command
         ->add_option("--max-memory", arguments->max_memory,
                      "memory that the check may take, such as 500M or 2G: the arrays of larger files lie in temporary "

@@ -82,14 +82,14 @@ std::vector<RunFile> files_written(const DelaunayArguments& arguments, const fs:
 
 DelaunaySettings settings_of(const DelaunayArguments& arguments) {
     DelaunaySettings settings = arguments.settings;
-    set_by_name(refine_option_table(), "min-angle", arguments.min_angle, settings.refine);
+    set_by_name(option_table<RefineOptions>(), "min-angle", arguments.min_angle, settings.refine);
     if (!arguments.max_area.empty()) {
         settings.max_area = parse_real(arguments.max_area, "option --max-area");
         if (!positive_numbers.contains(settings.max_area))
             throw UsageError("option --max-area: must be " + positive_numbers.text());
     }
     ConstrainedOptions constrained;
-    set_by_name(constrained_option_table(), "drop-flat", arguments.drop_flat, constrained);
+    set_by_name(option_table<ConstrainedOptions>(), "drop-flat", arguments.drop_flat, constrained);
     settings.drop_flat = constrained.drop_flat;
     if (!arguments.merge->empty()) {
         // Without a distance, the option holds what a switch does.
@@ -104,9 +104,9 @@ DelaunaySettings settings_of(const DelaunayArguments& arguments) {
 /// Returns the options that the command has in common with `lamina mesh`: the threads and the limits.
 CaseOptions case_options_of(const DelaunayArguments& arguments) {
     CaseOptions options;
-    set_by_name(case_option_table(), "threads", arguments.threads, options);
-    set_by_name(case_option_table(), "max-triangles", arguments.max_triangles, options);
-    set_by_name(case_option_table(), "max-memory", arguments.max_memory, options);
+    set_by_name(option_table<CaseOptions>(), "threads", arguments.threads, options);
+    set_by_name(option_table<CaseOptions>(), "max-triangles", arguments.max_triangles, options);
+    set_by_name(option_table<CaseOptions>(), "max-memory", arguments.max_memory, options);
     return options;
 }
 
@@ -241,7 +241,7 @@ void add_delaunay_command(CLI::App& app) {
         ->add_option("-o,--output", arguments->stem,
                      "write STEM.node, STEM.ele and, for a .poly file, STEM.poly [FILE.1]")
         ->type_name("STEM");
-    add_table_option(*command, refine_option_table(), "min-angle", arguments->min_angle);
+    add_table_option(*command, option_table<RefineOptions>(), "min-angle", arguments->min_angle);
     command
         ->add_option("--max-area", arguments->max_area,
                      "largest area of a triangle, in squared units of the input; > 0")
@@ -253,7 +253,7 @@ void add_delaunay_command(CLI::App& app) {
         "--insert-crossings", arguments->settings.insert_crossings,
         "add a vertex where segments cross, which is an error otherwise, and lead segments through vertices "
         "that they miss by rounding alone");
-    add_table_option(*command, constrained_option_table(), "drop-flat", arguments->drop_flat);
+    add_table_option(*command, option_table<ConstrainedOptions>(), "drop-flat", arguments->drop_flat);
     arguments->merge =
         command
             ->add_option(
@@ -264,9 +264,9 @@ void add_delaunay_command(CLI::App& app) {
             ->expected(0, 1)
             ->check(&require_merge_distance, "")
             ->type_name("[TOL]");
-    add_table_option(*command, case_option_table(), "threads", arguments->threads);
-    add_table_option(*command, case_option_table(), "max-triangles", arguments->max_triangles);
-    add_table_option(*command, case_option_table(), "max-memory", arguments->max_memory);
+    add_table_option(*command, option_table<CaseOptions>(), "threads", arguments->threads);
+    add_table_option(*command, option_table<CaseOptions>(), "max-triangles", arguments->max_triangles);
+    add_table_option(*command, option_table<CaseOptions>(), "max-memory", arguments->max_memory);
     command->add_option("--report", arguments->report, "JSON report of the run to write")->type_name("FILE");
     command->add_flag("--quiet", arguments->quiet, "print no summary and no progress; warnings and errors are printed");
     command->add_flag("--strict", arguments->strict,

@@ -31,7 +31,7 @@ namespace {
 
 struct FlowArguments {
     std::vector<std::string> inputs;
-    std::map<std::string, std::string> conditions;  ///< values by the names of conditions_option_table()
+    std::map<std::string, std::string> conditions;  ///< values by the names of option_table<FlowConditions>()
     std::string table, picture;
 };
 
@@ -117,7 +117,7 @@ void flow(const FlowArguments& arguments) {
     require_consistent(mesh_case);
     FlowConditions conditions = mesh_case.options.conditions;
     for (const auto& [name, value] : arguments.conditions)
-        set_by_name(conditions_option_table(), name, value, conditions);
+        set_by_name(option_table<FlowConditions>(), name, value, conditions);
     validate(conditions);
     const std::vector<RunFile> outputs = files_written(arguments);
     require_distinct(files_of_case(mesh_case), outputs);
@@ -151,7 +151,7 @@ void add_flow_command(CLI::App& app) {
     auto arguments = std::make_shared<FlowArguments>();
     command->add_option("INPUT", arguments->inputs, input_help);
     for (const char* name : {"alpha", "reynolds", "velocity", "viscosity", "chord"})
-        add_table_option(*command, conditions_option_table(), name, arguments->conditions[name]);
+        add_table_option(*command, option_table<FlowConditions>(), name, arguments->conditions[name]);
     command
         ->add_option("-o,--output", arguments->table,
                      "CSV file to write: speed, pressure and boundary layer along each side; - for standard output")

@@ -22,18 +22,18 @@ void add_info_command(CLI::App& app) {
     command->add_option("INPUT", *inputs, input_help);
     auto surface = std::make_shared<std::map<std::string, std::string>>();
     for (const char* name : {"close", "mirror-half"})
-        add_table_flag(*command, geometry_option_table(), name, (*given)[name]);
+        add_table_flag(*command, option_table<GeometryOptions>(), name, (*given)[name]);
     auto transform = std::make_shared<std::vector<std::string>>();
-    add_repeated_table_option(*command, geometry_option_table(), "transform", *transform);
+    add_repeated_table_option(*command, option_table<GeometryOptions>(), "transform", *transform);
     for (const char* name : {"surface", "smooth", "spacing-max"})
-        add_table_option(*command, surface_option_table(), name, (*surface)[name]);
+        add_table_option(*command, option_table<SurfaceOptions>(), name, (*surface)[name]);
     command->callback([inputs, given, transform, surface] {
         MeshCase mesh_case = case_of_inputs(*inputs);
         for (const auto& [name, text] : *given)
-            set_by_name(geometry_option_table(), name, text, mesh_case.options.geometry);
-        set_by_name(geometry_option_table(), "transform", *transform, mesh_case.options.geometry);
+            set_by_name(option_table<GeometryOptions>(), name, text, mesh_case.options.geometry);
+        set_by_name(option_table<GeometryOptions>(), "transform", *transform, mesh_case.options.geometry);
         for (const auto& [name, text] : *surface) {
-            set_by_name(surface_option_table(), name, text, mesh_case.options.surface);
+            set_by_name(option_table<SurfaceOptions>(), name, text, mesh_case.options.surface);
             if (!text.empty()) mesh_case.given.push_back(name);
         }
         require_consistent(mesh_case);

@@ -52,10 +52,10 @@ Mesh mesh_of_outlines(const std::string& input) {
 
 void plot(const PlotArguments& arguments) {
     PlotOptions options;
-    set_by_name(plot_option_table(), "window", arguments.window, options);
-    set_by_name(plot_option_table(), "color", arguments.color, options);
-    set_by_name(plot_option_table(), "width", arguments.width, options);
-    set_by_name(plot_option_table(), "format", arguments.format, options);
+    set_by_name(option_table<PlotOptions>(), "window", arguments.window, options);
+    set_by_name(option_table<PlotOptions>(), "color", arguments.color, options);
+    set_by_name(option_table<PlotOptions>(), "width", arguments.width, options);
+    set_by_name(option_table<PlotOptions>(), "format", arguments.format, options);
     options.axes = arguments.axes;
     options.scale_bar = arguments.scale_bar;
     options.color_bar = arguments.color_bar;
@@ -88,16 +88,16 @@ void add_plot_command(CLI::App& app) {
                      "picture; its extension says the format: .png, .svg or .pdf; - for standard output")
         ->required()
         ->type_name("FILE");
-    add_table_option(*command, plot_option_table(), "window", arguments->window);
-    add_table_option(*command, plot_option_table(), "color", arguments->color);
+    add_table_option(*command, option_table<PlotOptions>(), "window", arguments->window);
+    add_table_option(*command, option_table<PlotOptions>(), "color", arguments->color);
     const auto add_flag = [&](const std::string& name, bool& flag) {
-        command->add_flag("--" + name, flag, help_with_range(find_row(plot_option_table(), name)));
+        command->add_flag("--" + name, flag, help_with_range(find_row(option_table<PlotOptions>(), name)));
     };
     add_flag("axes", arguments->axes);
     add_flag("scale-bar", arguments->scale_bar);
     add_flag("color-bar", arguments->color_bar);
-    add_table_option(*command, plot_option_table(), "width", arguments->width);
-    add_table_option(*command, plot_option_table(), "format", arguments->format);
+    add_table_option(*command, option_table<PlotOptions>(), "width", arguments->width);
+    add_table_option(*command, option_table<PlotOptions>(), "format", arguments->format);
     command->callback([arguments] { plot(*arguments); });
 }
 

@@ -34,7 +34,7 @@ namespace {
 struct SizesArguments {
     std::string solution, mesh, case_file, output;
     std::vector<std::string> fields;
-    std::map<std::string, std::string> options;  ///< values by the names of solution_size_option_table()
+    std::map<std::string, std::string> options;  ///< values by the names of option_table<SolutionSizeOptions>()
 };
 
 /// Returns the function that makes the next mesh by a case file, and counts its vertices.
@@ -83,7 +83,8 @@ std::vector<RunFile> files_of_solution(const SizesArguments& arguments) {
 
 void sizes(const SizesArguments& arguments) {
     SolutionSizeOptions options;
-    for (const auto& [name, value] : arguments.options) set_by_name(solution_size_option_table(), name, value, options);
+    for (const auto& [name, value] : arguments.options)
+        set_by_name(option_table<SolutionSizeOptions>(), name, value, options);
     validate(options);
     std::vector<RunFile> inputs = files_of_solution(arguments);
     std::optional<MeshCase> mesh_case;
@@ -128,7 +129,7 @@ void add_sizes_command(CLI::App& app) {
         ->delimiter(',')
         ->type_name("NAME[,NAME...]");
     for (const char* name : {"vertices", "gradation", "max-change"})
-        add_table_option(*command, solution_size_option_table(), name, arguments->options[name]);
+        add_table_option(*command, option_table<SolutionSizeOptions>(), name, arguments->options[name]);
     command->get_option("--vertices")->required();
     command
         ->add_option("--case", arguments->case_file,

@@ -89,7 +89,7 @@ void apply_preferences(FlowSolver solver, MeshCase& mesh_case) {
 void make_case(const CaseArguments& arguments) {
     const FlowSolver solver = solver_of_name(arguments.solver);
     SolverCaseOptions options;
-    set_by_name(solver_case_option_table(), "turbulence", arguments.turbulence, options);
+    set_by_name(option_table<SolverCaseOptions>(), "turbulence", arguments.turbulence, options);
     options.overwrite = arguments.overwrite;
     MeshCase mesh_case = case_of_command_line(arguments.mesh);
     if (arguments.folder.empty()) throw UsageError("no output: give -o DIR");
@@ -128,10 +128,10 @@ void add_case_command(CLI::App& app) {
                      "folder to write the mesh and the case into; of several levels: {level} stands for the number")
         ->type_name("DIR")
         ->group("Case");
-    add_table_option(*command, solver_case_option_table(), "turbulence", arguments->turbulence)->group("Case");
+    add_table_option(*command, option_table<SolverCaseOptions>(), "turbulence", arguments->turbulence)->group("Case");
     command
         ->add_flag("--overwrite", arguments->overwrite,
-                   help_with_range(find_row(solver_case_option_table(), "overwrite")))
+                   help_with_range(find_row(option_table<SolverCaseOptions>(), "overwrite")))
         ->group("Case");
     arguments->family = add_family_options(*command, 1);
     for (const char* const name : {"--ratio", "--base-level", "--table"})

@@ -89,7 +89,7 @@ OptionTable<MeshCase> other_options() {
 OptionTable<MeshCase> make_table() {
     OptionTable<MeshCase> table = file_options();
     for (OptionTable<MeshCase> rows :
-         {nested_table<MeshCase>(case_option_table(), member_at(&MeshCase::options)), other_options()})
+         {nested_table<MeshCase>(option_table<CaseOptions>(), member_at(&MeshCase::options)), other_options()})
         std::move(rows.begin(), rows.end(), std::back_inserter(table));
     std::erase_if(table, [](const Option<MeshCase>& option) { return option.library_only; });
     const auto rank = [](const Option<MeshCase>& option) {

@@ -1,12 +1,12 @@
 // The table of the options of cases.
-#include <lamina/option_builders.hpp>
 #include <lamina/solver_case.hpp>
+
+#include "core/option_rows.hpp"
 
 namespace lamina {
 
-namespace {
-
-OptionTable<SolverCaseOptions> make_solver_case_table() {
+template <>
+OptionTable<SolverCaseOptions> option_rows() {
     OptionTableBuilder<SolverCaseOptions> table("Case");
     table.choice("turbulence",
                  "turbulence model: Spalart-Allmaras (sa, from a Reynolds number of 1e4 on), k-omega SST, or none "
@@ -19,12 +19,6 @@ OptionTable<SolverCaseOptions> make_solver_case_table() {
                member_at(&SolverCaseOptions::overwrite));
     return table.take();
 }
-
-}  // namespace
-
-const OptionTable<SolverCaseOptions>& solver_case_option_table() {
-    static const OptionTable<SolverCaseOptions> table = make_solver_case_table();
-    return table;
-}
+template LAMINA_EXPORT const OptionTable<SolverCaseOptions>& option_table();
 
 }  // namespace lamina

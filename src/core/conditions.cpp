@@ -2,13 +2,13 @@
 #include <lamina/conditions.hpp>
 
 #include <lamina/error.hpp>
-#include <lamina/option_builders.hpp>
+
+#include "core/option_rows.hpp"
 
 namespace lamina {
 
-namespace {
-
-OptionTable<FlowConditions> make_table() {
+template <>
+OptionTable<FlowConditions> option_rows() {
     OptionTableBuilder<FlowConditions> table("Flow");
     table.number("chord", "C",
                  "reference chord, in units of the input: what lengths in chords count; else the extent in x of the "
@@ -35,16 +35,10 @@ OptionTable<FlowConditions> make_table() {
                  positive_numbers, member_at(&FlowConditions::mach));
     return table.take();
 }
-
-}  // namespace
-
-const OptionTable<FlowConditions>& conditions_option_table() {
-    static const OptionTable<FlowConditions> table = make_table();
-    return table;
-}
+template LAMINA_EXPORT const OptionTable<FlowConditions>& option_table();
 
 void validate(const FlowConditions& conditions) {
-    require_in_range(conditions_option_table(), conditions);
+    require_in_range(option_table<FlowConditions>(), conditions);
     const auto& [alpha_deg, reynolds, mach, chord, velocity, viscosity] = conditions;
     if (velocity && !viscosity) throw OptionError("velocity", "needs viscosity, which is not given");
     if (viscosity && !velocity) throw OptionError("viscosity", "needs velocity, which is not given");

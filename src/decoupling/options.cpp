@@ -3,16 +3,15 @@
 
 #include <fmt/format.h>
 
-#include <lamina/option_builders.hpp>
 #include <lamina/predicates.hpp>
 
+#include "core/option_rows.hpp"
 #include "core/text.hpp"
 
 namespace lamina {
 
-namespace {
-
-OptionTable<FarFieldOptions> make_far_field_table() {
+template <>
+OptionTable<FarFieldOptions> option_rows() {
     OptionTableBuilder<FarFieldOptions> table("Outer region");
     table.length("far-field", "L", "half-width of the far-field box or radius of the circle", positive_numbers,
                  member_at(&FarFieldOptions::size));
@@ -48,6 +47,9 @@ OptionTable<FarFieldOptions> make_far_field_table() {
         .excludes = other_shapes;
     return table.take();
 }
+template LAMINA_EXPORT const OptionTable<FarFieldOptions>& option_table();
+
+namespace {
 
 /// Throws OptionError unless the outline is a convex polygon, counter-clockwise.
 void require_convex(std::span<const Point> outline) {
@@ -66,13 +68,8 @@ void require_convex(std::span<const Point> outline) {
 
 }  // namespace
 
-const OptionTable<FarFieldOptions>& far_field_option_table() {
-    static const OptionTable<FarFieldOptions> table = make_far_field_table();
-    return table;
-}
-
 void validate(const FarFieldOptions& options) {
-    require_in_range(far_field_option_table(), options);
+    require_in_range(option_table<FarFieldOptions>(), options);
     if (options.shape == FarFieldShape::outline) require_convex(options.outline);
     if (options.shape != FarFieldShape::box && (options.tunnel || options.ground))
         throw OptionError(options.tunnel ? "tunnel" : "ground", "needs the far field to be a box");

@@ -1,13 +1,12 @@
 // The table of the options of the stage "read".
 #include <lamina/geometry.hpp>
 
-#include <lamina/option_builders.hpp>
+#include "core/option_rows.hpp"
 
 namespace lamina {
 
-namespace {
-
-OptionTable<GeometryOptions> make_table() {
+template <>
+OptionTable<GeometryOptions> option_rows() {
     OptionTableBuilder<GeometryOptions> table("Geometry");
     table.list(
         "names", OptionKind::words, "A,B,...",
@@ -32,16 +31,10 @@ OptionTable<GeometryOptions> make_table() {
         .library_only = true;
     return table.take();
 }
-
-}  // namespace
-
-const OptionTable<GeometryOptions>& geometry_option_table() {
-    static const OptionTable<GeometryOptions> table = make_table();
-    return table;
-}
+template LAMINA_EXPORT const OptionTable<GeometryOptions>& option_table();
 
 void validate(const GeometryOptions& options) {
-    require_in_range(geometry_option_table(), options);
+    require_in_range(option_table<GeometryOptions>(), options);
     if (options.close && options.mirror_half)
         throw OptionError("mirror_half", "excludes closing the half by a straight edge (close)");
 }

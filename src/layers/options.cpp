@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include <lamina/layers.hpp>
-#include <lamina/option_builders.hpp>
 
+#include "core/option_rows.hpp"
 #include "core/reproducible_math.hpp"
 #include "layers/growth_laws.hpp"
 
@@ -126,7 +126,16 @@ void add_growth_law(OptionTableBuilder<LayerOptions>& table) {
     table.choice("growth-law", help, choices, member_at(&LayerOptions::growth_law));
 }
 
-OptionTable<LayerOptions> make_table() {
+}  // namespace
+
+}  // namespace lamina::layers
+
+namespace lamina {
+
+using namespace layers;
+
+template <>
+OptionTable<LayerOptions> option_rows() {
     OptionTableBuilder<LayerOptions> table("Layer");
     const auto at = [](auto LayerOptions::*member) { return member_at(member); };
     add_first_height(table);
@@ -157,23 +166,11 @@ OptionTable<LayerOptions> make_table() {
         Choices<bool>{{"no", false}, {"yes", true}}, at(&LayerOptions::wake_layers));
     return table.take();
 }
-
-}  // namespace
-
-}  // namespace lamina::layers
-
-namespace lamina {
-
-using namespace layers;
-
-const OptionTable<LayerOptions>& layer_option_table() {
-    static const OptionTable<LayerOptions> table = make_table();
-    return table;
-}
+template LAMINA_EXPORT const OptionTable<LayerOptions>& option_table();
 
 void validate(const LayerOptions& options) {
     if (!options.enabled) return;
-    require_in_range(layer_option_table(), options);
+    require_in_range(option_table<LayerOptions>(), options);
     const GrowthLawEntry& law = growth_law_entry(options.growth_law);
     if (law.min_layers > 0 && !options.layers)
         throw OptionError("layers", fmt::format("{} growth needs a number of layers, not auto", law.name));

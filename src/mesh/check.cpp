@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include <lamina/error.hpp>
 #include <lamina/mesh.hpp>
 
 #include "mesh/adjacency.hpp"

@@ -1,13 +1,12 @@
 // The table of the options of check_mesh().
 #include <lamina/mesh.hpp>
 
-#include <lamina/option_builders.hpp>
+#include "core/option_rows.hpp"
 
 namespace lamina {
 
-namespace {
-
-OptionTable<MeshCheckOptions> make_table() {
+template <>
+OptionTable<MeshCheckOptions> option_rows() {
     OptionTableBuilder<MeshCheckOptions> table("Check");
     table.number("min-angle", "DEG",
                  "require this smallest angle of isotropic triangles, in degrees, but in sharp corners",
@@ -18,16 +17,10 @@ OptionTable<MeshCheckOptions> make_table() {
                  positive_numbers, member_at(&MeshCheckOptions::first_height));
     return table.take();
 }
-
-}  // namespace
-
-const OptionTable<MeshCheckOptions>& mesh_check_option_table() {
-    static const OptionTable<MeshCheckOptions> table = make_table();
-    return table;
-}
+template LAMINA_EXPORT const OptionTable<MeshCheckOptions>& option_table();
 
 void validate(const MeshCheckOptions& options) {
-    require_in_range(mesh_check_option_table(), options);
+    require_in_range(option_table<MeshCheckOptions>(), options);
     for (const double height : options.first_heights) require_in_range(positive_numbers, height, "first_heights");
 }
 

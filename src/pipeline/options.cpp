@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <lamina/option_builders.hpp>
-
+#include "core/option_rows.hpp"
 #include "core/reproducible_math.hpp"
 #include "pipeline/derived_options.hpp"
 
@@ -66,21 +65,30 @@ void add_row(const Option<CaseOptions>& option, OptionTable<CaseOptions>& table)
 }
 
 /// Adds the options of a stage to the table of all options.
-template <class Inner, class Member>
-void add_stage(const OptionTable<Inner>& inner, Member member, OptionTable<CaseOptions>& table) {
-    for (const Option<CaseOptions>& option : nested_table<CaseOptions>(inner, member_at(member)))
+template <class Inner>
+void add_stage(Inner CaseOptions::*member, OptionTable<CaseOptions>& table) {
+    for (const Option<CaseOptions>& option : nested_table<CaseOptions>(option_table<Inner>(), member_at(member)))
         add_row(option, table);
 }
 
-OptionTable<CaseOptions> make_table() {
+}  // namespace
+
+}  // namespace lamina::pipeline
+
+namespace lamina {
+
+using namespace pipeline;
+
+template <>
+OptionTable<CaseOptions> option_rows() {
     OptionTable<CaseOptions> table;
-    add_stage(surface_option_table(), &CaseOptions::surface, table);
-    add_stage(geometry_option_table(), &CaseOptions::geometry, table);
-    add_stage(conditions_option_table(), &CaseOptions::conditions, table);
-    add_stage(layer_option_table(), &CaseOptions::layer, table);
-    add_stage(far_field_option_table(), &CaseOptions::far_field, table);
-    add_stage(sizing_option_table(), &CaseOptions::sizing, table);
-    add_stage(refine_option_table(), &CaseOptions::refine, table);
+    add_stage(&CaseOptions::surface, table);
+    add_stage(&CaseOptions::geometry, table);
+    add_stage(&CaseOptions::conditions, table);
+    add_stage(&CaseOptions::layer, table);
+    add_stage(&CaseOptions::far_field, table);
+    add_stage(&CaseOptions::sizing, table);
+    add_stage(&CaseOptions::refine, table);
     for (const Option<CaseOptions>& option : pipeline_rows()) add_row(option, table);
     for (Option<CaseOptions>& option : table) {
         if (option.name != "exact-points") continue;
@@ -92,19 +100,7 @@ OptionTable<CaseOptions> make_table() {
     }
     return table;
 }
-
-}  // namespace
-
-}  // namespace lamina::pipeline
-
-namespace lamina {
-
-using namespace pipeline;
-
-const OptionTable<CaseOptions>& case_option_table() {
-    static const OptionTable<CaseOptions> table = make_table();
-    return table;
-}
+template LAMINA_EXPORT const OptionTable<CaseOptions>& option_table();
 
 void validate(const CaseOptions& options) {
     validate(options.geometry);

@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include <lamina/option.hpp>
+
 namespace lamina::pipeline {
 
 namespace {
@@ -68,7 +70,8 @@ CaseOptions preset_options(const std::string& name, bool has_reynolds) {
     CaseOptions options;
     for (const Preset& preset : presets()) {
         if (preset.name != chosen) continue;
-        for (const auto& [option, value] : preset.values) find_row(case_option_table(), option).set(options, value);
+        for (const auto& [option, value] : preset.values)
+            find_row(option_table<CaseOptions>(), option).set(options, value);
     }
     return options;
 }

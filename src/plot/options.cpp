@@ -3,11 +3,10 @@
 
 #include <cmath>
 
-#include <lamina/option_builders.hpp>
-
+#include "core/option_rows.hpp"
 #include "core/text.hpp"
 
-namespace lamina::plot {
+namespace lamina {
 
 namespace {
 
@@ -26,7 +25,10 @@ std::string window_text(const PlotWindow& window) {
     return window.place.empty() ? core::concat(x0, ",", x1, ",", y0, ",", y1) : window.place;
 }
 
-OptionTable<PlotOptions> make_table() {
+}  // namespace
+
+template <>
+OptionTable<PlotOptions> option_rows() {
     OptionTableBuilder<PlotOptions> table("Picture");
     table.choice("color", "quantity that the colours of the cells show",
                  Choices<PlotColor>{{"none", PlotColor::none},
@@ -49,18 +51,8 @@ OptionTable<PlotOptions> make_table() {
                 member_at(&PlotOptions::width_px));
     return table.take();
 }
+template LAMINA_EXPORT const OptionTable<PlotOptions>& option_table();
 
-}  // namespace
-
-}  // namespace lamina::plot
-
-namespace lamina {
-
-const OptionTable<PlotOptions>& plot_option_table() {
-    static const OptionTable<PlotOptions> table = plot::make_table();
-    return table;
-}
-
-void validate(const PlotOptions& options) { require_in_range(plot_option_table(), options); }
+void validate(const PlotOptions& options) { require_in_range(option_table<PlotOptions>(), options); }
 
 }  // namespace lamina

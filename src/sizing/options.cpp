@@ -1,15 +1,13 @@
 // The table of the options of the size field.
 #include <lamina/sizing.hpp>
 
-#include <lamina/option_builders.hpp>
-
+#include "core/option_rows.hpp"
 #include "sizing/shapes.hpp"
 
 namespace lamina {
 
-namespace {
-
-OptionTable<SizingOptions> make_table() {
+template <>
+OptionTable<SizingOptions> option_rows() {
     OptionTableBuilder<SizingOptions> table("Outer region");
     table.number("gradation", "G", "growth of the edge length per unit of distance", numbers_above_up_to(0, 1),
                  member_at(&SizingOptions::gradation));
@@ -30,14 +28,8 @@ OptionTable<SizingOptions> make_table() {
                 parse_size_source, size_source_text, member_at(&SizingOptions::sources));
     return table.take();
 }
+template LAMINA_EXPORT const OptionTable<SizingOptions>& option_table();
 
-}  // namespace
-
-const OptionTable<SizingOptions>& sizing_option_table() {
-    static const OptionTable<SizingOptions> table = make_table();
-    return table;
-}
-
-void validate(const SizingOptions& options) { require_in_range(sizing_option_table(), options); }
+void validate(const SizingOptions& options) { require_in_range(option_table<SizingOptions>(), options); }
 
 }  // namespace lamina

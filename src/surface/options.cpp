@@ -1,8 +1,7 @@
 // The table of the options of the stage "prepare".
 #include <lamina/surface.hpp>
 
-#include <lamina/option_builders.hpp>
-
+#include "core/option_rows.hpp"
 #include "core/text.hpp"
 
 namespace lamina {
@@ -52,7 +51,10 @@ void add_numbers_of_points(OptionTableBuilder<SurfaceOptions>& table) {
         .excludes = {"surface-points"};
 }
 
-OptionTable<SurfaceOptions> make_table() {
+}  // namespace
+
+template <>
+OptionTable<SurfaceOptions> option_rows() {
     OptionTableBuilder<SurfaceOptions> table("Geometry");
     const auto at = [](auto SurfaceOptions::*member) { return member_at(member); };
     table.choice("surface",
@@ -94,16 +96,10 @@ OptionTable<SurfaceOptions> make_table() {
         library(table.number(name, "SHARE", "see SurfaceOptions", positive_numbers, at(member)));
     return table.take();
 }
-
-}  // namespace
-
-const OptionTable<SurfaceOptions>& surface_option_table() {
-    static const OptionTable<SurfaceOptions> table = make_table();
-    return table;
-}
+template LAMINA_EXPORT const OptionTable<SurfaceOptions>& option_table();
 
 void validate(const SurfaceOptions& options) {
-    require_in_range(surface_option_table(), options);
+    require_in_range(option_table<SurfaceOptions>(), options);
     if (!options.exact_points) return;
     if (!options.points) throw OptionError(exact_key, "needs a number of points");
     if (options.treatment == SurfaceTreatment::keep)

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <lamina/option.hpp>
+
 #include "pipeline/cases.hpp"
 
 namespace lamina::test {
@@ -21,7 +23,7 @@ constexpr std::size_t rays_of_fan = 37;
 
 CaseOptions equal_options() {
     CaseOptions options;
-    find_row(case_option_table(), "exact-points").set(options, std::int64_t{wall_points});
+    find_row(option_table<CaseOptions>(), "exact-points").set(options, std::int64_t{wall_points});
     options.layer.layers = layer_count;
     options.layer.first_height = Length{2e-5};
     options.layer.topology = LayerTopology::quads;
@@ -84,7 +86,7 @@ TEST(EqualLayers, OfSectionsWithABase) {
                                         shapes::section(0.15, 0.004, 30), shapes::section(0.1, 0.002, 30)};
     expect_equal_layers(sections, equal_options(), 2);
     CaseOptions three_edges = equal_options();
-    find_row(case_option_table(), "exact-points").set(three_edges, std::to_string(wall_points) + ":3");
+    find_row(option_table<CaseOptions>(), "exact-points").set(three_edges, std::to_string(wall_points) + ":3");
     expect_equal_layers(sections, three_edges, 2);
 }
 

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <lamina/error.hpp>
+#include <lamina/option.hpp>
 #include <lamina/pipeline.hpp>
 #include "support/shapes.hpp"
 
@@ -32,7 +33,7 @@ std::string refused_by_validate(const Options& options) {
 TEST(CaseOptions, DefaultsAreValidAndEveryRowCanBeReadAndSet) {
     EXPECT_EQ(refused_by_validate(CaseOptions{}), "");
     std::set<std::string> names;
-    for (const Option<CaseOptions>& option : case_option_table()) {
+    for (const Option<CaseOptions>& option : option_table<CaseOptions>()) {
         EXPECT_TRUE(names.insert(option.name).second) << option.name << " stands in the table twice";
         EXPECT_NE(option.help, "") << option.name;
         EXPECT_NE(option.group, "") << option.name;
@@ -46,15 +47,15 @@ TEST(CaseOptions, DefaultsAreValidAndEveryRowCanBeReadAndSet) {
 
 TEST(CaseOptions, RowsThatExcludeOrNeedOthersNameRows) {
     std::set<std::string> names;
-    for (const Option<CaseOptions>& option : case_option_table()) names.insert(option.name);
-    for (const Option<CaseOptions>& option : case_option_table()) {
+    for (const Option<CaseOptions>& option : option_table<CaseOptions>()) names.insert(option.name);
+    for (const Option<CaseOptions>& option : option_table<CaseOptions>()) {
         for (const std::string& other : option.excludes) EXPECT_EQ(names.count(other), 1u) << option.name;
         for (const std::string& other : option.needs) EXPECT_EQ(names.count(other), 1u) << option.name;
     }
 }
 
 TEST(CaseOptions, RowsRefuseWhatIsNoNumberOrHasAnotherType) {
-    for (const Option<CaseOptions>& option : case_option_table()) {
+    for (const Option<CaseOptions>& option : option_table<CaseOptions>()) {
         CaseOptions options;
         const auto refused = [&](const OptionValue& value) {
             return refused_option([&] { option.set(options, value); }) == option.key();

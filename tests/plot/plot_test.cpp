@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <lamina/error.hpp>
+#include <lamina/option.hpp>
 #include <lamina/plot.hpp>
 
 #include "support/sample_meshes.hpp"
@@ -75,7 +77,7 @@ TEST(Plot, ShowsPlacesByName) {
     EXPECT_THROW(picture("slot"), UsageError);
     EXPECT_THROW(picture("nose:2"), UsageError);
     // The table reads names and numbers, and writes what it reads.
-    const Option<PlotOptions>& option = find_row(plot_option_table(), "window");
+    const Option<PlotOptions>& option = find_row(option_table<PlotOptions>(), "window");
     for (const std::string text : {"nose:2", "0,2,-0.5,0.5"}) {
         PlotOptions options;
         option.set(options, text);

@@ -35,7 +35,7 @@ const OptionTable<MeshRequest>& request_table() {
                  true, member_at(&MeshRequest::allow_defects));
         OptionTable<MeshRequest> rows = presets.take();
         for (Option<MeshRequest>& row :
-             nested_table<MeshRequest>(case_option_table(), member_at(&MeshRequest::options)))
+             nested_table<MeshRequest>(option_table<CaseOptions>(), member_at(&MeshRequest::options)))
             if (!row.library_only) rows.push_back(std::move(row));
         for (Option<MeshRequest>& row : run.take()) rows.push_back(std::move(row));
         return rows;

@@ -1,13 +1,12 @@
 // The tables of the options of refinement and of constrained triangulation.
 #include <lamina/delaunay.hpp>
 
-#include <lamina/option_builders.hpp>
+#include "core/option_rows.hpp"
 
 namespace lamina {
 
-namespace {
-
-OptionTable<RefineOptions> make_refine_table() {
+template <>
+OptionTable<RefineOptions> option_rows() {
     OptionTableBuilder<RefineOptions> table("Outer region");
     table.number("min-angle", "DEG", "smallest angle of isotropic triangles, in degrees; 0: no bound",
                  numbers_from_to(0, max_min_angle_deg), member_at(&RefineOptions::min_angle_deg));
@@ -30,8 +29,10 @@ OptionTable<RefineOptions> make_refine_table() {
                true, member_at(&RefineOptions::regularize));
     return table.take();
 }
+template LAMINA_EXPORT const OptionTable<RefineOptions>& option_table();
 
-OptionTable<ConstrainedOptions> make_constrained_table() {
+template <>
+OptionTable<ConstrainedOptions> option_rows() {
     OptionTableBuilder<ConstrainedOptions> table("Constrained triangulation");
     table.number(
         "drop-flat", "TOL",
@@ -40,21 +41,10 @@ OptionTable<ConstrainedOptions> make_constrained_table() {
         numbers_from_to(0, max_drop_flat), member_at(&ConstrainedOptions::drop_flat));
     return table.take();
 }
-
-}  // namespace
-
-const OptionTable<ConstrainedOptions>& constrained_option_table() {
-    static const OptionTable<ConstrainedOptions> table = make_constrained_table();
-    return table;
-}
-
-const OptionTable<RefineOptions>& refine_option_table() {
-    static const OptionTable<RefineOptions> table = make_refine_table();
-    return table;
-}
+template LAMINA_EXPORT const OptionTable<ConstrainedOptions>& option_table();
 
 void validate(const RefineOptions& options) {
-    require_in_range(refine_option_table(), options);
+    require_in_range(option_table<RefineOptions>(), options);
     if (options.unit_length) require_in_range(positive_numbers, *options.unit_length, "unit_length");
 }
 
