@@ -96,7 +96,7 @@ TEST(Shapes, CoverBoxesWhosePointsTheyHold) {
             const bool covers_box = covers(shape, box);
             covered += covers_box;
             for (int k = 0; covers_box && k < 20; ++k) EXPECT_LE(lamina::distance_to(source, random.in(box)), rounding);
-            if (!has_inside(shape)) EXPECT_FALSE(covers_box);
+            EXPECT_TRUE(has_inside(shape) || !covers_box);
         }
     }
     EXPECT_GT(covered, 100);
@@ -115,10 +115,7 @@ TEST(Shapes, AreasInADomainAreAboutThoseOfPointsInside) {
         int inside = 0;
         for (int i = 0; i < count; ++i) inside += lamina::distance_to(source, random.in(domain)) == 0;
         const double area = domain.width() * domain.height(), expected = area * inside / count;
-        if (has_inside(prepare_shape(source)))
-            EXPECT_NEAR(extent.area, expected, 0.03 * area);
-        else
-            EXPECT_EQ(extent.area, 0);
+        EXPECT_NEAR(extent.area, expected, 0.03 * area);
         EXPECT_GE(extent.border, 0);
         EXPECT_EQ(extent_in({{10, 10}, {11, 11}}, source).area, 0);
         EXPECT_EQ(extent_in({{10, 10}, {11, 11}}, source).border, 0);
