@@ -36,6 +36,7 @@ OWNERS = {name: "core" for name in ("angle_bounds", "conditions", "error", "expo
                                     "length", "limits", "marker_names", "option", "option_builders", "point", "predicates", "ranks",
                                     "suggestion", "threads", "version", "warning")}
 OWNERS["transformation"] = "geometry"
+OWNERS["compressible_flow"] = "flow"
 OWNERS["solution"] = "io"
 OWNERS["solution_sizes"] = "adaptation"
 OWNERS["triangle_files"] = "io"

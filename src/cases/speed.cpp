@@ -1,29 +1,19 @@
 // Mach numbers for which the settings of the cases are not made.
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 
+#include <lamina/compressible_flow.hpp>
 #include <lamina/solver_case.hpp>
-
-#include "core/reproducible_math.hpp"
 
 namespace lamina {
 
 namespace {
 
-/// Returns the pressure coefficient at which flow of this Mach number, between 0 and 1, is as fast as sound: that of the
-/// same entropy and total enthalpy, for a ratio of specific heats of 1.4.
-double critical_pressure_coefficient(double mach) {
-    const double ratio = (1 + 0.2 * mach * mach) / 1.2;
-    return (core::pow_reproducible(ratio, 3.5) - 1) / (0.7 * mach * mach);
-}
-
 /// Returns whether flow of this Mach number, between 0 and 1, is expected to be faster than sound where incompressible
-/// flow has this pressure coefficient: T. von Karman, J. Aeronaut. Sci. 8 (1941), after H. S. Tsien.
+/// flow has this pressure coefficient.
 bool is_supersonic(double incompressible, double mach) {
-    const double b = std::sqrt(1 - mach * mach), divisor = b + mach * mach / (1 + b) * incompressible / 2;
-    return !(divisor > 0) || incompressible / divisor < critical_pressure_coefficient(mach);
+    return compressed_pressure_coefficient(incompressible, mach) < critical_pressure_coefficient(mach);
 }
 
 /// Returns the length of all walls along which the flow is expected to be faster than sound.

@@ -1,0 +1,49 @@
+// Compressible flow along walls: pressures, Mach numbers and shocks.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <lamina/export.hpp>
+#include <lamina/point.hpp>
+
+namespace lamina {
+
+/// The flow at one vertex of a wall.
+struct CompressibleWallPoint {
+    Point at;                         ///< the vertex
+    double pressure_coefficient = 0;  ///< based on the free stream's dynamic pressure
+    double mach = 0;                  ///< Mach number
+};
+
+/// A shock that ends a supersonic region at a wall.
+struct WallShock {
+    Point at;                ///< where the wall's Mach number falls through 1
+    double position = 0;     ///< the same, as a share of the element's extent in x
+    double mach_ahead = 0;   ///< largest Mach number of the wall ahead of it, since the flow became supersonic
+    double mach_behind = 0;  ///< smallest one within some hundredths of the extent behind it
+};
+
+/// The flow along one side of an element, from the stagnation point to the trailing edge.
+struct CompressibleSide {
+    std::vector<CompressibleWallPoint> points;  ///< in the direction of the flow
+    std::vector<WallShock> shocks;              ///< in the same order
+};
+
+/// The flow along one element.
+struct CompressibleElement {
+    std::string name;        ///< of the element
+    CompressibleSide upper;  ///< the side that follows the outline backwards
+    CompressibleSide lower;  ///< the side that follows the outline, counter-clockwise round the body
+};
+
+/// Returns the pressure coefficient at which flow is as fast as sound, cp*: that of the same entropy and total enthalpy
+/// as the free stream of this Mach number. Precondition: mach > 0.
+LAMINA_EXPORT double critical_pressure_coefficient(double mach);
+
+/// Returns the pressure coefficient of subsonic flow of this Mach number where incompressible flow has `incompressible`,
+/// or minus infinity where the formula has none. Precondition: 0 <= mach < 1.
+/// Source: T. von Karman, J. Aeronaut. Sci. 8 (1941), after H. S. Tsien.
+LAMINA_EXPORT double compressed_pressure_coefficient(double incompressible, double mach);
+
+}  // namespace lamina

@@ -1,0 +1,71 @@
+// Steady compressible flow without friction on a given triangulation. Vertex-centred finite volumes on the median dual,
+// HLLC fluxes, second order with the limiter of van Albada; implicit steps by symmetric Gauss-Seidel in a fixed order.
+// It only adds, multiplies, divides and takes roots, on one thread, so that every machine has the same bits.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <lamina/ids.hpp>
+#include <lamina/point.hpp>
+
+namespace lamina::flow::euler {
+
+/// The wall of one body.
+struct EulerWall {
+    /// Vertices, counter-clockwise, from the trailing edge, or from the upper corner of its base, on.
+    std::vector<VertexId> outline;
+    /// Index of the lower corner of the base, from which the base leads back to the first vertex; the number of vertices
+    /// where the trailing edge is sharp.
+    std::size_t sides_end = 0;
+};
+
+/// A triangulation and its boundary.
+struct EulerMesh {
+    std::span<const Point> points;        ///< vertices
+    std::span<const Triangle> triangles;  ///< counter-clockwise
+    std::vector<EulerWall> walls;         ///< none: the free stream has nothing in its way
+    std::span<const Segment> far_field;   ///< directed with the gas at their left
+};
+
+/// Options of solve_euler().
+struct EulerOptions {
+    double mach = 0;                  ///< Mach number of the free stream
+    double alpha_deg = 0;             ///< angle at which it rises
+    double chord = 1;                 ///< reference length of the coefficients
+    int max_iterations = 150;         ///< most steps
+    int first_order_iterations = 20;  ///< steps of first order at the beginning
+    int sweeps = 8;                   ///< symmetric sweeps per step
+    double first_cfl = 2;             ///< time step at the beginning, in those of explicit steps
+    double cfl_growth = 1.5;          ///< its growth from step to step
+    double max_cfl = 1000;            ///< where the growth ends below Mach 1
+    double max_supersonic_cfl = 50;   ///< the same from Mach 1 on: longer steps swing at bow shocks
+    double tolerance = 1e-6;          ///< residual over the first one with which the flow is steady
+    /// The flow is also steady once lift and drag have changed over some steps by less than this share, and the residual
+    /// has fallen to `settled_residual` of the first one.
+    double settled = 2e-3;
+    double settled_residual = 0.01;  ///< see `settled`
+};
+
+/// Steady flow. The units are the density and the speed of sound of the free stream, whose pressure is 1 / 1.4.
+struct EulerSolution {
+    std::vector<double> densities;  ///< per vertex
+    std::vector<Point> velocities;  ///< per vertex
+    std::vector<double> pressures;  ///< per vertex
+    double lift = 0;                ///< lift coefficient of the pressures on all walls
+    double drag = 0;                ///< drag coefficient: that of shocks, and of the mesh's error
+    double residual = 0;            ///< root mean square of the residuals of the density, over the first one
+    int iterations = 0;             ///< number of steps
+    bool converged = false;         ///< whether the flow is steady
+};
+
+/// Returns the steady flow. Where it does not become steady, EulerSolution::converged is false, and the numbers are those
+/// of the last step, all finite. Throws OptionError where the Mach number is not positive or above 10, and MeshError where
+/// vertices do not hang together.
+EulerSolution solve_euler(const EulerMesh& mesh, const EulerOptions& options);
+
+/// Returns the Mach number at a vertex.
+double mach_at(const EulerSolution& solution, std::size_t vertex);
+
+}  // namespace lamina::flow::euler

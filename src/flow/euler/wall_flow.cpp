@@ -1,0 +1,100 @@
+#include "flow/euler/wall_flow.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "flow/euler/gas.hpp"
+
+namespace lamina::flow::euler {
+
+namespace {
+
+/// Returns the index in the outline at which the sides begin.
+std::size_t find_stagnation(const EulerMesh& mesh, const EulerWall& wall, const EulerSolution& solution) {
+    const std::size_t end = std::min(wall.sides_end, wall.outline.size() - 1);
+    const auto pressure = [&](std::size_t k) { return solution.pressures[wall.outline[k].index()]; };
+    // The speed along the outline at its vertex k, which is counted in the direction of the outline.
+    const auto along = [&](std::size_t k) {
+        const Point chord =
+            mesh.points[wall.outline[(k + 1) % wall.outline.size()].index()] - mesh.points[wall.outline[k - 1].index()];
+        return dot(solution.velocities[wall.outline[k].index()], chord);
+    };
+    std::size_t highest = 1, parting = 0;
+    for (std::size_t k = 1; k < end; ++k) {
+        if (pressure(k) > pressure(highest)) highest = k;
+        if (k + 1 == end || along(k) > 0 || along(k + 1) < 0) continue;
+        const std::size_t next = pressure(k) > pressure(k + 1) ? k : k + 1;
+        if (parting == 0 || pressure(next) > pressure(parting)) parting = next;
+    }
+    return parting == 0 ? highest : parting;
+}
+
+/// Returns the smallest Mach number from point k on over a distance along a side.
+double slowest_within(const std::vector<CompressibleWallPoint>& side, std::size_t k, double reach) {
+    double slowest = side[k].mach, way = 0;
+    for (std::size_t i = k + 1; i < side.size(); ++i) {
+        way += distance(side[i - 1].at, side[i].at);
+        if (way > reach) break;
+        slowest = std::min(slowest, side[i].mach);
+    }
+    return slowest;
+}
+
+/// Returns the largest Mach number before point k over a distance along a side.
+double fastest_before(const std::vector<CompressibleWallPoint>& side, std::size_t k, double reach) {
+    double fastest = side[k].mach, way = 0;
+    for (std::size_t i = k; i-- > 0;) {
+        way += distance(side[i + 1].at, side[i].at);
+        if (way > reach) break;
+        fastest = std::max(fastest, side[i].mach);
+    }
+    return fastest;
+}
+
+}  // namespace
+
+std::vector<WallShock> find_shocks(const std::vector<CompressibleWallPoint>& side, double from, double extent) {
+    constexpr double least_mach = 1.05;  // ahead of a shock
+    constexpr double reach = 0.04,
+                     least_jump = 0.06;  // the Mach number falls by this much from `reach` ahead to behind
+    constexpr double end = 0.005;        // shocks at the trailing edge are not those of the side
+    std::vector<WallShock> shocks;
+    double fastest = 0;
+    for (std::size_t k = 0; k + 1 < side.size(); ++k) {
+        const CompressibleWallPoint &a = side[k], &b = side[k + 1];
+        fastest = std::max(fastest, a.mach);
+        if (!(a.mach > 1 && b.mach <= 1)) continue;
+        const double share = (a.mach - 1) / (a.mach - b.mach);
+        const Point at = a.at + share * (b.at - a.at);
+        const double behind = slowest_within(side, k + 1, reach * extent);
+        const double jump = fastest_before(side, k, reach * extent) - behind;
+        if (fastest > least_mach && jump > least_jump && distance(at, side.back().at) > end * extent)
+            shocks.push_back({at, (at.x - from) / extent, fastest, behind});
+        fastest = 0;
+    }
+    return shocks;
+}
+
+std::vector<CompressibleElement> wall_flows(const EulerMesh& mesh, const EulerSolution& solution,
+                                            const EulerOptions& options) {
+    std::vector<CompressibleElement> flows;
+    const double dynamic = 0.5 * options.mach * options.mach;
+    for (const EulerWall& wall : mesh.walls) {
+        Box box;
+        for (const VertexId v : wall.outline) box.include(mesh.points[v.index()]);
+        const auto point = [&](std::size_t k) {
+            const std::size_t v = wall.outline[k % wall.outline.size()].index();
+            return CompressibleWallPoint{mesh.points[v], (solution.pressures[v] - 1 / heat_ratio) / dynamic,
+                                         mach_at(solution, v)};
+        };
+        CompressibleElement& element = flows.emplace_back();
+        const std::size_t stagnation = find_stagnation(mesh, wall, solution);
+        for (std::size_t k = stagnation + 1; k-- > 0;) element.upper.points.push_back(point(k));
+        for (std::size_t k = stagnation; k <= wall.sides_end; ++k) element.lower.points.push_back(point(k));
+        for (CompressibleSide* side : {&element.upper, &element.lower})
+            side->shocks = find_shocks(side->points, box.lower.x, box.width());
+    }
+    return flows;
+}
+
+}  // namespace lamina::flow::euler
