@@ -1,10 +1,13 @@
-// Compressible flow along walls: pressures, Mach numbers and shocks.
+// Compressible flow before the mesh: without friction, with its shocks (`lamina flow --mach`, docs/reference/flow.md).
+// solve_compressible_flow() of pipeline.hpp finds it on a mesh of its own.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
 #include <lamina/export.hpp>
+#include <lamina/ids.hpp>
 #include <lamina/point.hpp>
 
 namespace lamina {
@@ -35,6 +38,25 @@ struct CompressibleElement {
     std::string name;        ///< of the element
     CompressibleSide upper;  ///< the side that follows the outline backwards
     CompressibleSide lower;  ///< the side that follows the outline, counter-clockwise round the body
+};
+
+/// Steady compressible flow without friction.
+struct CompressibleFlow {
+    double mach = 0;                            ///< Mach number of the free stream
+    double alpha_deg = 0;                       ///< its direction
+    double chord = 1;                           ///< the reference length of all coefficients, in units of the input
+    double lift = 0;                            ///< lift coefficient by the pressures on all walls
+    double drag = 0;                            ///< drag coefficient by the same: wave drag, and the mesh's error
+    double critical_pressure_coefficient = 0;   ///< critical_pressure_coefficient()
+    double largest_mach = 0;                    ///< the largest Mach number on the walls
+    std::vector<CompressibleElement> elements;  ///< in the order of the geometry
+    std::vector<Point> points;                  ///< vertices of the mesh that it was found on
+    std::vector<Triangle> triangles;            ///< triangles of that mesh
+    std::vector<double> mach_numbers;           ///< per vertex
+    std::vector<double> pressures;              ///< per vertex, as a multiple of the free stream's
+    int iterations = 0;                         ///< number of implicit steps
+    double residual = 0;                        ///< of the density, over that of the first step
+    bool converged = false;                     ///< whether the flow is steady
 };
 
 /// Returns the pressure coefficient at which flow is as fast as sound, cp*: that of the same entropy and total enthalpy

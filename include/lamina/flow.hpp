@@ -80,6 +80,11 @@ struct Flow {
 /// potential flows may be added. With another share than 1 the flow turns round trailing edges.
 LAMINA_EXPORT Flow with_share_of_lift(Flow flow, double share);
 
+/// Returns the flow with the pressures of compressible flow of a Mach number, compressed_pressure_coefficient(), and with
+/// the lift coefficients that follow from them. Speeds and boundary layers stay. Precondition: 0 <= mach < 1, and the
+/// formula has a value everywhere, as below the critical Mach number.
+LAMINA_EXPORT Flow with_compressed_pressures(Flow flow, double mach);
+
 /// Returns the potential flow round all elements and, where a Reynolds number is given, the boundary layers along their
 /// sides. Takes geometry as read or as prepared; the panels choose their own points on smooth curves through the given
 /// ones, so that the flow hardly depends on the spacing of the wall. Geometry 2^k times as large gives the same flow,

@@ -1,6 +1,7 @@
 // lamina flow: the flow round airfoils before there is a mesh.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
 #include <map>
 #include <memory>
@@ -10,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include <lamina/compressible_flow.hpp>
 #include <lamina/error.hpp>
 #include <lamina/files.hpp>
 #include <lamina/flow.hpp>
@@ -105,6 +107,102 @@ std::array<double, 2> pressures_shown(const std::vector<ChartCurve>& curves) {
     return {std::max(values.front(), std::min(room * usual, -1.0)), 1};
 }
 
+std::string compressible_table(const CompressibleFlow& flow) {
+    std::string text = "element,side,x,y,cp,mach\n";
+    for (const CompressibleElement& element : flow.elements)
+        for (const auto& [name, side] : {std::pair("upper", &element.upper), std::pair("lower", &element.lower)})
+            for (const CompressibleWallPoint& p : side->points)
+                text += fmt::format("{},{},{},{},{},{}\n", element.name, name, p.at.x, p.at.y, p.pressure_coefficient,
+                                    p.mach);
+    return text;
+}
+
+std::string compressible_side_line(const std::string& name, const CompressibleSide& side) {
+    const auto fastest = std::max_element(
+        side.points.begin(), side.points.end(),
+        [](const CompressibleWallPoint& a, const CompressibleWallPoint& b) { return a.mach < b.mach; });
+    std::string text =
+        fmt::format("largest Mach number {:.4g} at ({:.4g}, {:.4g})", fastest->mach, fastest->at.x, fastest->at.y);
+    for (const WallShock& shock : side.shocks)
+        text += fmt::format(", shock at {:.3f} of the element's extent in x, ({:.4g}, {:.4g}), Mach {:.3f} to {:.3f}",
+                            shock.position, shock.at.x, shock.at.y, shock.mach_ahead, shock.mach_behind);
+    return summary_line(name, text);
+}
+
+std::string compressible_summary(const CompressibleFlow& flow) {
+    std::string text = fmt::format(
+        "compressible flow at Mach {:.4g} and {} degrees, without friction: lift coefficient {:.4f}, drag coefficient "
+        "of "
+        "the shocks {:.4f}, based on the chord {:.6g}\n",
+        flow.mach, flow.alpha_deg, flow.lift, flow.drag, flow.chord);
+    text += fmt::format("largest Mach number {:.4g}; sonic pressure coefficient cp* {:.4g}\n", flow.largest_mach,
+                        flow.critical_pressure_coefficient);
+    for (const CompressibleElement& element : flow.elements)
+        text += element.name + ":\n" + compressible_side_line("upper", element.upper) +
+                compressible_side_line("lower", element.lower);
+    const bool has_shock =
+        std::any_of(flow.elements.begin(), flow.elements.end(), [](const CompressibleElement& element) {
+            return !element.upper.shocks.empty() || !element.lower.shocks.empty();
+        });
+    if (has_shock) text += "without boundary layers shocks lie too far back, on RAE 2822 by 6 to 9 % of the chord\n";
+    if (!flow.converged)
+        text += fmt::format("the flow is not steady after {} steps: the numbers are rough\n", flow.iterations);
+    return text;
+}
+
+/// Returns the pressures on each element, and the one at which the flow is as fast as sound.
+std::vector<ChartCurve> pressure_curves(const CompressibleFlow& flow) {
+    std::vector<ChartCurve> curves;
+    double first = HUGE_VAL, last = -HUGE_VAL;
+    for (const CompressibleElement& element : flow.elements) {
+        ChartCurve& curve = curves.emplace_back(ChartCurve{element.name, {}});
+        const auto pressure = [](const CompressibleWallPoint& p) { return Point{p.at.x, p.pressure_coefficient}; };
+        std::transform(element.upper.points.rbegin(), element.upper.points.rend(), std::back_inserter(curve.points),
+                       pressure);
+        std::transform(element.lower.points.begin(), element.lower.points.end(), std::back_inserter(curve.points),
+                       pressure);
+        for (const Point p : curve.points) first = std::min(first, p.x), last = std::max(last, p.x);
+    }
+    const double sonic = flow.critical_pressure_coefficient;
+    curves.push_back({"cp*", {{first, sonic}, {last, sonic}}});
+    return curves;
+}
+
+/// What the command writes and prints.
+struct FlowText {
+    std::string table, summary;
+    std::vector<ChartCurve> curves;
+    std::array<double, 2> pressures;
+};
+
+FlowText text_of(const Flow& flow, const std::string& before, bool has_layers) {
+    std::vector<ChartCurve> curves = pressure_curves(flow);
+    const std::array<double, 2> pressures = pressures_shown(curves);
+    return {flow_table(flow), before + flow_summary(flow, has_layers), std::move(curves), pressures};
+}
+
+FlowText text_of(const CompressibleFlow& flow) {
+    std::vector<ChartCurve> curves = pressure_curves(flow);
+    double low = 0, high = 0;
+    for (const ChartCurve& curve : curves)
+        for (const Point p : curve.points) low = std::min(low, p.y), high = std::max(high, p.y);
+    return {compressible_table(flow), compressible_summary(flow), std::move(curves), {low, high}};
+}
+
+/// Solves the flow that the conditions ask for: without friction and with shocks where it is faster than sound, else
+/// potential flow with boundary layers, whose pressures are those of compressible flow where there is a Mach number.
+FlowText solve(const Geometry& given, const Geometry& prepared, const FlowConditions& conditions, bool has_layers) {
+    const Flow flow = solve_flow(prepared, conditions);
+    if (is_beyond_critical(flow, conditions)) return text_of(solve_compressible_flow(given, conditions));
+    print_warnings(flow.warnings);
+    if (!conditions.mach) return text_of(flow, "", has_layers);
+    const std::string before = fmt::format(
+        "Mach {:.4g} is below the critical Mach number: pressures and lift of incompressible flow, after Karman and "
+        "Tsien\n",
+        *conditions.mach);
+    return text_of(with_compressed_pressures(flow, *conditions.mach), before, has_layers);
+}
+
 std::vector<RunFile> files_written(const FlowArguments& arguments) {
     std::vector<RunFile> files;
     if (!arguments.table.empty()) files.push_back({arguments.table, "option --output"});
@@ -126,22 +224,16 @@ void flow(const FlowArguments& arguments) {
     const SignalGuard guard(outputs);
 
     const CaseOptions& options = mesh_case.options;
-    Geometry geometry = read_geometry(mesh_case.inputs, options.geometry);
+    const Geometry geometry = read_geometry(mesh_case.inputs, options.geometry);
     const ReferenceConditions reference = reference_conditions(conditions, reference_box(geometry));
-    geometry = prepare_surfaces(std::move(geometry), options.surface, {}, reference.chord);
-    const Flow flow = solve_flow(geometry, conditions);
     print_warnings_of_reader(geometry);
-    print_warnings(flow.warnings);
-    if (!arguments.table.empty()) write_file(arguments.table, flow_table(flow));
-    if (!arguments.picture.empty()) {
-        const std::vector<ChartCurve> curves = pressure_curves(flow);
-        plot_chart(curves, arguments.picture,
-                   {.x_label = "x",
-                    .y_label = "pressure coefficient",
-                    .y_downwards = true,
-                    .y_range = pressures_shown(curves)});
-    }
-    print_summary(flow_summary(flow, reference.reynolds.has_value()), outputs);
+    const FlowText text = solve(geometry, prepare_surfaces(geometry, options.surface, {}, reference.chord), conditions,
+                                reference.reynolds.has_value());
+    if (!arguments.table.empty()) write_file(arguments.table, text.table);
+    if (!arguments.picture.empty())
+        plot_chart(text.curves, arguments.picture,
+                   {.x_label = "x", .y_label = "pressure coefficient", .y_downwards = true, .y_range = text.pressures});
+    print_summary(text.summary, outputs);
 }
 
 }  // namespace
@@ -150,11 +242,12 @@ void add_flow_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand("flow", "compute the flow round airfoils, without a mesh");
     auto arguments = std::make_shared<FlowArguments>();
     command->add_option("INPUT", arguments->inputs, input_help);
-    for (const char* name : {"alpha", "reynolds", "velocity", "viscosity", "chord"})
+    for (const char* name : {"alpha", "mach", "reynolds", "velocity", "viscosity", "chord"})
         add_table_option(*command, option_table<FlowConditions>(), name, arguments->conditions[name]);
     command
         ->add_option("-o,--output", arguments->table,
-                     "CSV file to write: speed, pressure and boundary layer along each side; - for standard output")
+                     "CSV file to write: speed, pressure and boundary layer along each side, or pressure "
+                     "and Mach number where it is faster than sound; - for standard output")
         ->type_name("FILE");
     command
         ->add_option("--picture", arguments->picture,

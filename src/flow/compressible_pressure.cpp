@@ -2,10 +2,38 @@
 #include <cmath>
 
 #include <lamina/compressible_flow.hpp>
+#include <lamina/flow.hpp>
 
 #include "core/reproducible_math.hpp"
 
+namespace lamina::flow {
+
+namespace {
+
+/// Returns the force of the pressures on one side, over the dynamic pressure. `sign` is 1 where the side follows the
+/// outline, counter-clockwise, and -1 where it goes against it.
+Point force_on(const std::vector<FlowPoint>& side, double sign) {
+    Point force;
+    for (std::size_t i = 1; i < side.size(); ++i) {
+        const double pressure = 0.5 * (side[i - 1].pressure_coefficient + side[i].pressure_coefficient);
+        force = force + sign * pressure * perpendicular(side[i].at - side[i - 1].at);
+    }
+    return force;
+}
+
+double lift_on(const ElementFlow& element, double alpha_deg) {
+    const double alpha = core::radians(alpha_deg);
+    const Point force = force_on(element.lower, 1) + force_on(element.upper, -1);
+    return cross({core::cos_reproducible(alpha), core::sin_reproducible(alpha)}, force);
+}
+
+}  // namespace
+
+}  // namespace lamina::flow
+
 namespace lamina {
+
+using namespace flow;
 
 double critical_pressure_coefficient(double mach) {
     const double ratio = (1 + 0.2 * mach * mach) / 1.2;
@@ -15,6 +43,19 @@ double critical_pressure_coefficient(double mach) {
 double compressed_pressure_coefficient(double incompressible, double mach) {
     const double b = std::sqrt(1 - mach * mach), divisor = b + mach * mach / (1 + b) * incompressible / 2;
     return divisor > 0 ? incompressible / divisor : -HUGE_VAL;
+}
+
+Flow with_compressed_pressures(Flow flow, double mach) {
+    for (ElementFlow& element : flow.elements) {
+        const double before = lift_on(element, flow.alpha_deg);
+        for (auto* side : {&element.upper, &element.lower})
+            for (FlowPoint& point : *side)
+                point.pressure_coefficient = compressed_pressure_coefficient(point.pressure_coefficient, mach);
+        const double more = (lift_on(element, flow.alpha_deg) - before) / flow.chord;
+        element.lift += more;
+        flow.lift += more;
+    }
+    return flow;
 }
 
 }  // namespace lamina

@@ -35,6 +35,23 @@ TEST(FlowCommand, PrintsAndWritesTheFlow) {
     EXPECT_EQ(inviscid.err.find("friction"), std::string::npos);
 }
 
+TEST(FlowCommand, ReportsShocksBeyondTheCriticalMachNumber) {
+    const TemporaryFolder folder;
+    const ProgramRun run = run_lamina(
+        folder, {"flow", "naca:0012", "--alpha", "1.25", "--mach", "0.8", "-o", "a.csv", "--picture", "a.png"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    for (const char* words : {"lift coefficient 0.3", "drag coefficient of the shocks 0.02", "cp* -0.4346",
+                              "shock at 0.6", "shock at 0.3", "without boundary layers"})
+        EXPECT_NE(run.out.find(words), std::string::npos) << words << run.out;
+    EXPECT_TRUE(folder.read("a.csv").starts_with("element,side,x,y,cp,mach\nairfoil,upper,"));
+    EXPECT_EQ(folder.read("a.png").substr(1, 3), "PNG");
+    const ProgramRun slow = run_lamina(folder, {"flow", "naca:0012", "--alpha", "2", "--mach", "0.5"});
+    ASSERT_EQ(slow.exit_code, 0) << slow.err;
+    EXPECT_NE(slow.out.find("below the critical Mach number"), std::string::npos) << slow.out;
+    EXPECT_NE(slow.out.find("lift coefficient 0.29"), std::string::npos) << slow.out;
+    expect_refused(folder, {"flow", "naca:0012", "--mach", "11", "-o", "b.csv"}, usage, "mach");
+}
+
 TEST(FlowCommand, TakesCaseFilesAndSeveralElements) {
     const TemporaryFolder folder;
     folder.write("two.dat", fixtures::two_999);

@@ -1,0 +1,139 @@
+// Compressible flow on a coarse mesh of its own.
+#include <lamina/compressible_flow.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include <lamina/error.hpp>
+#include <lamina/pipeline.hpp>
+#include <lamina/threads.hpp>
+
+#include "flow/euler/euler.hpp"
+#include "flow/euler/wall_flow.hpp"
+
+namespace lamina::pipeline {
+
+namespace {
+
+using flow::euler::EulerMesh;
+using flow::euler::EulerOptions;
+using flow::euler::EulerSolution;
+using flow::euler::EulerWall;
+
+/// Returns the options of a mesh for flow of this Mach number, without layers.
+CaseOptions options_of_mesh(const FlowConditions& conditions) {
+    // A vortex stands for the lift at the far field below Mach 1 alone. Bow shocks of thick sections are some chords away
+    // at Mach 1.2.
+    constexpr double far = 50, far_supersonic = 15, clearly_supersonic = 1.2;
+    CaseOptions options;
+    options.conditions = {.alpha_deg = conditions.alpha_deg, .chord = conditions.chord};
+    options.layer.enabled = false;
+    options.surface.max_spacing = 0.008;
+    options.sizing.gradation = 0.16;
+    options.far_field.size = *conditions.mach < clearly_supersonic ? far : far_supersonic;
+    options.threads = thread_count();
+    return options;
+}
+
+/// Returns the wall of an element. Precondition: its marker's edges are one loop.
+EulerWall wall_of(const Element& element, const Marker& marker, const Mesh& mesh) {
+    std::vector<VertexId> before(mesh.points.size());
+    for (const Segment& edge : marker.edges) before[edge.b.index()] = edge.a;  // the mesh is on their left
+    const auto vertex_at = [&](Point p) {
+        const auto nearer = [&](const Segment& a, const Segment& b) {
+            return squared_length(mesh.points[a.a.index()] - p) < squared_length(mesh.points[b.a.index()] - p);
+        };
+        return std::min_element(marker.edges.begin(), marker.edges.end(), nearer)->a;
+    };
+    const OutlineFeatures& features = element.features;
+    const VertexId first = vertex_at(features.base ? element.points[features.base->last] : features.trailing_edge);
+    EulerWall wall;
+    VertexId v = first;
+    do {
+        wall.outline.push_back(v);
+        v = before[v.index()];
+    } while (v != first);
+    wall.sides_end = wall.outline.size();
+    if (features.base) {
+        const VertexId lower = vertex_at(element.points[features.base->first]);
+        wall.sides_end =
+            static_cast<std::size_t>(std::find(wall.outline.begin(), wall.outline.end(), lower) - wall.outline.begin());
+    }
+    return wall;
+}
+
+/// Returns the mesh as the solver takes it. It refers to `made`.
+EulerMesh euler_mesh(const MeshResult& made) {
+    EulerMesh mesh{made.mesh.points, made.mesh.triangles, {}, {}};
+    for (const Element& element : made.geometry.elements)
+        for (const Marker& marker : made.mesh.markers)
+            if (marker.name == element.name) mesh.walls.push_back(wall_of(element, marker, made.mesh));
+    for (const Marker& marker : made.mesh.markers)
+        if (marker.kind == MarkerKind::far_field) mesh.far_field = marker.edges;
+    return mesh;
+}
+
+CompressibleFlow flow_of(const MeshResult& made, const EulerMesh& mesh, const EulerSolution& solution,
+                         const EulerOptions& options) {
+    CompressibleFlow flow;
+    flow.mach = options.mach;
+    flow.alpha_deg = options.alpha_deg;
+    flow.chord = options.chord;
+    flow.lift = solution.lift;
+    flow.drag = solution.drag;
+    flow.critical_pressure_coefficient = critical_pressure_coefficient(options.mach);
+    flow.elements = wall_flows(mesh, solution, options);
+    flow.iterations = solution.iterations;
+    flow.residual = solution.residual;
+    flow.converged = solution.converged;
+    for (std::size_t e = 0; e < flow.elements.size(); ++e) {
+        CompressibleElement& element = flow.elements[e];
+        element.name = made.geometry.elements[e].name;
+        for (const CompressibleSide* side : {&element.upper, &element.lower})
+            for (const CompressibleWallPoint& point : side->points)
+                flow.largest_mach = std::max(flow.largest_mach, point.mach);
+    }
+    for (std::size_t v = 0; v < solution.pressures.size(); ++v) {
+        flow.mach_numbers.push_back(mach_at(solution, v));
+        flow.pressures.push_back(1.4 * solution.pressures[v]);
+    }
+    return flow;
+}
+
+}  // namespace
+
+}  // namespace lamina::pipeline
+
+namespace lamina {
+
+using namespace pipeline;
+
+bool is_beyond_critical(const Flow& flow, const FlowConditions& conditions) {
+    if (!conditions.mach) return false;
+    const double mach = *conditions.mach;
+    if (mach >= 1) return true;
+    const double critical = critical_pressure_coefficient(mach);
+    for (const ElementFlow& element : flow.elements)
+        for (const auto* side : {&element.upper, &element.lower})
+            for (const FlowPoint& point : *side)
+                if (compressed_pressure_coefficient(point.pressure_coefficient, mach) < critical) return true;
+    return false;
+}
+
+CompressibleFlow solve_compressible_flow(const Geometry& geometry, const FlowConditions& conditions) {
+    validate(conditions);
+    if (!conditions.mach) throw OptionError("mach", "a compressible flow needs it");
+    const ReferenceConditions reference = reference_conditions(conditions, reference_box(geometry));
+    MeshResult made = generate_mesh(geometry, options_of_mesh(conditions));
+    const EulerMesh mesh = euler_mesh(made);
+    const EulerOptions options{.mach = *conditions.mach, .alpha_deg = reference.alpha_deg, .chord = reference.chord};
+    const EulerSolution solution = solve_euler(mesh, options);
+    CompressibleFlow flow = flow_of(made, mesh, solution, options);
+    flow.points = std::move(made.mesh.points);
+    flow.triangles = std::move(made.mesh.triangles);
+    return flow;
+}
+
+}  // namespace lamina
