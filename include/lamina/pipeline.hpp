@@ -156,12 +156,21 @@ struct FlowSpacing {
     Point at{};           ///< where
 };
 
+/// A shock for which the mesh is made finer.
+struct FlowShock {
+    std::string element;    ///< the one on which it stands
+    Point at{};             ///< where it is expected on the wall: ahead of that of flow without boundary layers
+    double mach_ahead = 0;  ///< largest Mach number of the wall ahead of it
+    double height = 0;      ///< how far the shock reaches away from there, in units of the input
+};
+
 /// The decisions that the flow before the mesh made, beside first heights.
 struct FlowDecisions {
     /// The largest of the heights that layers reach at least, in units of the input; 0 where the flow decides on none.
     double least_thickness = 0;
     std::vector<FlowWake> wakes;        ///< behind each element that has one
     std::vector<FlowSpacing> spacings;  ///< of each element whose wall was resampled, if the flow asks for any there
+    std::vector<FlowShock> shocks;      ///< beyond the critical Mach number
 };
 
 /// A mesh, and the facts about it that the report of a run tells.

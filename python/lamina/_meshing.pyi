@@ -59,7 +59,8 @@ def mesh(
     velocity: float | None = None,
     # kinematic viscosity, in squared units of the input per second; > 0
     viscosity: float | None = None,
-    # Mach number of the free stream; makes a case of OpenFOAM one of compressible flow; > 0
+    # Mach number of the free stream; makes a case of OpenFOAM one of compressible flow and, with the flow's
+    # help, the mesh finer at shocks; > 0
     mach: float | None = None,
     # height of the first layer above the wall; > 0 [1e-05]
     first_height: float | str | None = None,

@@ -33,6 +33,8 @@ const char* wake_source(const FlowWake& wake) {
 }
 constexpr const char* spacing_source =
     "change of the pressure coefficient of the panel method, or first height at the corners of a base";
+constexpr const char* shock_source =
+    "compressible flow without friction, whose shock is moved forward by 0.04 chords for the boundary layer";
 
 /// A length in force.
 struct LengthFact {
@@ -146,6 +148,17 @@ std::string spacings_summary(const MeshResult& result) {
     return text;
 }
 
+std::string shocks_summary(const MeshResult& result) {
+    std::string text;
+    for (const FlowShock& shock : result.decisions.shocks)
+        text +=
+            summary_line("shock", fmt::format("on {}, expected at ({:.4g}, {:.4g}), Mach {:.3g} ahead of it, {:.2g} "
+                                              "chords high ({})",
+                                              shock.element, shock.at.x, shock.at.y, shock.mach_ahead,
+                                              shock.height / result.conditions.chord, shock_source));
+    return text;
+}
+
 Json both_units(double length, double chord) { return {{"chords", length / chord}, {"units", length}}; }
 
 }  // namespace
@@ -162,7 +175,8 @@ std::string conditions_summary(const MeshCase& mesh_case, const MeshResult& resu
             summary_line(fact.label, fmt::format("{:.4g} chords, {:.4g} units of the input{} ({})",
                                                  in_chords(fact.length, chord), in_units(fact.length, chord),
                                                  fact.element.empty() ? "" : " on " + fact.element, fact.source));
-    return "conditions: " + flow + "\n" + lengths + wakes_summary(result) + spacings_summary(result);
+    return "conditions: " + flow + "\n" + lengths + wakes_summary(result) + spacings_summary(result) +
+           shocks_summary(result);
 }
 
 Json conditions_report(const MeshCase& mesh_case, const MeshResult& result) {
@@ -193,6 +207,12 @@ Json conditions_report(const MeshCase& mesh_case, const MeshResult& result) {
                                            {"smallest", both_units(spacing.smallest, chord)},
                                            {"at", {spacing.at.x, spacing.at.y}},
                                            {"source", spacing_source}});
+    for (const FlowShock& shock : result.decisions.shocks)
+        report["shocks"].push_back({{"element", shock.element},
+                                    {"at", {shock.at.x, shock.at.y}},
+                                    {"mach_ahead", shock.mach_ahead},
+                                    {"height", both_units(shock.height, chord)},
+                                    {"source", shock_source}});
     return report;
 }
 

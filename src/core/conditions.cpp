@@ -31,8 +31,11 @@ OptionTable<FlowConditions> option_rows() {
         .number("viscosity", "NU", "kinematic viscosity, in squared units of the input per second", positive_numbers,
                 member_at(&FlowConditions::viscosity))
         .needs = {"velocity"};
-    table.number("mach", "M", "Mach number of the free stream; makes a case of OpenFOAM one of compressible flow",
-                 positive_numbers, member_at(&FlowConditions::mach));
+    table.number(
+        "mach", "M",
+        "Mach number of the free stream; makes a case of OpenFOAM one of compressible flow and, with the flow's "
+        "help, the mesh finer at shocks",
+        positive_numbers, member_at(&FlowConditions::mach));
     return table.take();
 }
 template LAMINA_EXPORT const OptionTable<FlowConditions>& option_table();

@@ -5,6 +5,10 @@
 #include <cmath>
 #include <variant>
 
+#include <lamina/error.hpp>
+
+#include "pipeline/shock_sizes.hpp"
+
 namespace lamina::pipeline {
 
 namespace {
@@ -43,6 +47,19 @@ void add_base_corners(const ElementFlow& flow, std::size_t element, const LayerG
     const double heights = base_corner_heights / std::max(flow.upper.back().speed, 1.0);
     const double spacing = heights * growth.first_height_on(element);
     for (const Point corner : {above, below}) spacings.push_back({element, corner, corner, spacing});
+}
+
+/// Adds what the shocks of compressible flow ask for. Where no mesh can be made to solve it on, they ask for nothing.
+void add_shocks(const Geometry& geometry, const FlowConditions& conditions, double fineness, FlowGuidance& guidance) {
+    ShockSizes sizes;
+    try {
+        sizes = sizes_at_shocks(solve_compressible_flow(geometry, conditions), fineness);
+    } catch (const MeshError&) {
+        return;
+    }
+    guidance.spacings.insert(guidance.spacings.end(), sizes.spacings.begin(), sizes.spacings.end());
+    guidance.sources = std::move(sizes.sources);
+    guidance.shocks = std::move(sizes.shocks);
 }
 
 }  // namespace
@@ -97,7 +114,7 @@ std::vector<FlowSpacing> smallest_spacings(std::span<const WallSpacing> spacings
 
 FlowGuidance guide_by_flow(const Geometry& geometry, const FlowConditions& flow_conditions, const LayerOptions& options,
                            const ReferenceConditions& conditions, LayerGrowth& growth) {
-    FlowGuidance guidance{solve_flow(geometry, flow_conditions), {}, {}};
+    FlowGuidance guidance{solve_flow(geometry, flow_conditions), {}, {}, {}, {}};
     const Flow& flow = *guidance.flow;
     if (!flow.estimated) guidance.wakes = wakes_of_flow(flow, growth.fineness);
     if (options.enabled) {
@@ -108,7 +125,9 @@ FlowGuidance guide_by_flow(const Geometry& geometry, const FlowConditions& flow_
         growth.least_heights = heights_of_flow(flow);
         if (options.wake_layers) growth.wakes = wake_lines(flow, guidance.wakes, growth.least_heights);
     }
-    if (!flow.estimated) guidance.spacings = spacings_of_flow(flow, growth);
+    if (flow.estimated) return guidance;
+    guidance.spacings = spacings_of_flow(flow, growth);
+    if (is_beyond_critical(flow, flow_conditions)) add_shocks(geometry, flow_conditions, growth.fineness, guidance);
     return guidance;
 }
 

@@ -56,9 +56,12 @@ struct FlowGuidance {
     std::optional<Flow> flow;        ///< none: nobody asked for it
     std::vector<ElementWake> wakes;  ///< one per element or none
     std::vector<WallSpacing> spacings;
+    std::vector<SizeSource> sources;  ///< along shocks
+    std::vector<FlowShock> shocks;    ///< beyond the critical Mach number
 };
 
 /// Solves the flow round these bodies. Its first heights for the y+ of the options, its least heights and wakes go to `growth`.
+/// Beyond the critical Mach number it solves the compressible flow, too, and makes walls and sizes fine at shocks.
 FlowGuidance guide_by_flow(const Geometry& geometry, const FlowConditions& flow_conditions, const LayerOptions& options,
                            const ReferenceConditions& conditions, LayerGrowth& growth);
 

@@ -100,6 +100,9 @@ MadeMesh run(const Geometry& given, CaseOptions options, MeshDriver& driver, Sta
     if (options.use_flow) {
         clock.begin("flow");
         guidance = guide_by_flow(given, options.conditions, options.layer, conditions, growth);
+        if (!decides_on_sizes(options.sizing))
+            options.sizing.sources.insert(options.sizing.sources.end(), guidance.sources.begin(),
+                                          guidance.sources.end());
         clock.end(&StageSeconds::flow);
     }
 
@@ -116,6 +119,7 @@ MadeMesh run(const Geometry& given, CaseOptions options, MeshDriver& driver, Sta
         result.warnings.insert(result.warnings.begin(), guidance.flow->warnings.begin(), guidance.flow->warnings.end());
     result.flow = std::move(guidance.flow);
     result.decisions = flow_decisions(growth, guidance.spacings, fitted, options.sizing);
+    result.decisions.shocks = std::move(guidance.shocks);
     result.seconds = clock.seconds();
     return made;
 }

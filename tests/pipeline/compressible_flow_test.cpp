@@ -10,6 +10,7 @@
 #include <lamina/threads.hpp>
 
 #include "pipeline/cases.hpp"
+#include "pipeline/shock_sizes.hpp"
 
 namespace lamina::test {
 namespace {
@@ -83,6 +84,59 @@ TEST(CompressibleFlow, KnowsTheCriticalMachNumber) {
     const double ratio = with_compressed_pressures(lifting, 0.6).lift / lifting.lift;
     EXPECT_GT(ratio, 1.22);
     EXPECT_LT(ratio, 1.36);
+}
+
+CaseOptions options_at(std::optional<double> mach) {
+    CaseOptions options;
+    options.conditions = {.alpha_deg = 1.25, .reynolds = 6.5e6, .mach = mach};
+    options.layer.first_height = YPlus{1};
+    options.layer.layers.reset();
+    options.use_flow = true;
+    return options;
+}
+
+/// The longest edge of the upper side between two positions in x.
+double longest_upper_edge(const MeshResult& result, double from, double to) {
+    const std::vector<Point>& points = result.geometry.elements[0].points;
+    double longest = 0;
+    for (std::size_t i = 0; i + 1 < points.size(); ++i)
+        if (points[i].y > 0 && std::min(points[i].x, points[i + 1].x) > from &&
+            std::max(points[i].x, points[i + 1].x) < to)
+            longest = std::max(longest, distance(points[i], points[i + 1]));
+    return longest;
+}
+
+TEST(SizesAtShocks, FollowTheShock) {
+    const Geometry geometry = read_geometry(std::vector<std::string>{"naca:0012"});
+    const MeshResult without = generate_mesh(geometry, options_at({})), slow = generate_mesh(geometry, options_at(0.3)),
+                     with = generate_mesh(geometry, options_at(0.8));
+    EXPECT_EQ(slow.mesh.points.size(), without.mesh.points.size());
+    EXPECT_TRUE(slow.decisions.shocks.empty());
+    ASSERT_EQ(with.decisions.shocks.size(), 1u);  // the one below is weak
+    const FlowShock& shock = with.decisions.shocks[0];
+    EXPECT_NEAR(shock.at.x, 0.595, 0.02);
+    EXPECT_NEAR(shock.mach_ahead, 1.38, 0.04);
+    EXPECT_GT(shock.height, 0.1);
+    EXPECT_LT(shock.height, 0.6);
+    EXPECT_LT(longest_upper_edge(with, shock.at.x - 0.1, 0.99), 0.0051);
+    EXPECT_GT(longest_upper_edge(without, shock.at.x - 0.1, 0.99), 0.008);
+    EXPECT_LT(static_cast<double>(with.mesh.points.size()), 1.2 * static_cast<double>(without.mesh.points.size()));
+}
+
+TEST(SizesAtShocks, FrontsLeaveTheWallAndEnd) {
+    const Geometry geometry = read_geometry(std::vector<std::string>{"naca:0012"});
+    const CompressibleFlow flow = solve_compressible_flow(geometry, {.alpha_deg = 1.25, .mach = 0.8});
+    const CompressibleSide& upper = flow.elements[0].upper;
+    const std::vector<Point> front = pipeline::trace_front(flow, upper, upper.shocks.at(0));
+    ASSERT_GT(front.size(), 10u);
+    EXPECT_LT(distance(front.front(), upper.shocks[0].at), 1e-12);
+    for (const Point p : front) EXPECT_NEAR(p.x, front.front().x, 0.15);
+    EXPECT_GT(front.back().y, 0.2);
+    CompressibleFlow unsteady = flow;
+    unsteady.converged = false;
+    EXPECT_TRUE(pipeline::sizes_at_shocks(unsteady, 1).spacings.empty());
+    EXPECT_EQ(pipeline::sizes_at_shocks(flow, 2).sources.at(0).size,
+              pipeline::sizes_at_shocks(flow, 1).sources.at(0).size / 2);
 }
 
 }  // namespace
