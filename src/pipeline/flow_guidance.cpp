@@ -7,6 +7,7 @@
 
 #include <lamina/error.hpp>
 
+#include "flow/euler/euler.hpp"
 #include "pipeline/shock_sizes.hpp"
 
 namespace lamina::pipeline {
@@ -49,8 +50,10 @@ void add_base_corners(const ElementFlow& flow, std::size_t element, const LayerG
     for (const Point corner : {above, below}) spacings.push_back({element, corner, corner, spacing});
 }
 
-/// Adds what the shocks of compressible flow ask for. Where no mesh can be made to solve it on, they ask for nothing.
+/// Adds what the shocks of compressible flow ask for. Where it is too fast to solve, and where no mesh can be made to solve
+/// it on, they ask for nothing.
 void add_shocks(const Geometry& geometry, const FlowConditions& conditions, double fineness, FlowGuidance& guidance) {
+    if (*conditions.mach > flow::euler::largest_mach) return;
     ShockSizes sizes;
     try {
         sizes = sizes_at_shocks(solve_compressible_flow(geometry, conditions), fineness);

@@ -16,8 +16,6 @@ namespace lamina::flow::euler {
 
 namespace {
 
-constexpr double largest_mach = 10;
-
 /// Returns the dual mesh in units of the chord.
 DualMesh dual_of(const EulerMesh& mesh, double chord) {
     std::vector<Point> points(mesh.points.begin(), mesh.points.end());

@@ -12,6 +12,9 @@
 
 namespace lamina::flow::euler {
 
+/// Faster flow is refused.
+inline constexpr double largest_mach = 10;
+
 /// The wall of one body.
 struct EulerWall {
     /// Vertices, counter-clockwise, from the trailing edge, or from the upper corner of its base, on.
@@ -61,7 +64,7 @@ struct EulerSolution {
 };
 
 /// Returns the steady flow. Where it does not become steady, EulerSolution::converged is false, and the numbers are those
-/// of the last step, all finite. Throws OptionError where the Mach number is not positive or above 10, and MeshError where
+/// of the last step, all finite. Throws OptionError where the Mach number is not positive or above `largest_mach`, and MeshError where
 /// vertices do not hang together.
 EulerSolution solve_euler(const EulerMesh& mesh, const EulerOptions& options);
 
