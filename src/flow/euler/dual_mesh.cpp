@@ -40,8 +40,10 @@ void number_vertices(const Graph& graph, VertexId first, DualMesh& mesh) {
         mesh.given.push_back(v);
     };
     add(first.value);
-    for (std::size_t k = 0; k < mesh.given.size(); ++k) {
-        const std::uint32_t v = mesh.given[k];
+    // The list grows while it is read.
+    std::size_t k = 0;
+    while (k < mesh.given.size()) {
+        const std::uint32_t v = mesh.given[k++];
         for (std::uint32_t n = graph.begins[v]; n < graph.begins[v + 1]; ++n) add(graph.neighbours[n]);
     }
 }
