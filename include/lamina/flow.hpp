@@ -80,9 +80,13 @@ struct Flow {
 /// potential flows may be added. With another share than 1 the flow turns round trailing edges.
 LAMINA_EXPORT Flow with_share_of_lift(Flow flow, double share);
 
-/// Returns the flow with the pressures of compressible flow of a Mach number, compressed_pressure_coefficient(), and with
-/// the lift coefficients that follow from them. Speeds and boundary layers stay. Precondition: 0 <= mach < 1, and the
-/// formula has a value everywhere, as below the critical Mach number.
+/// Returns the length of all walls, in chords, along which flow of a Mach number is expected to be faster than sound
+/// (compressed_pressure_coefficient() of compressible_flow.hpp). Precondition: 0 < mach < 1.
+LAMINA_EXPORT double supersonic_length(const Flow& flow, double mach);
+
+/// Returns the flow with the pressures of compressible flow of a Mach number, compressed_pressure_coefficient(), but none
+/// below a vacuum, and with the lift coefficients that follow from them. Speeds and boundary layers stay. Precondition:
+/// 0 < mach < 1.
 LAMINA_EXPORT Flow with_compressed_pressures(Flow flow, double mach);
 
 /// Returns the potential flow round all elements and, where a Reynolds number is given, the boundary layers along their

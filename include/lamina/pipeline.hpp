@@ -226,9 +226,13 @@ LAMINA_EXPORT MeshResult generate_mesh(const Geometry& geometry, const CaseOptio
 LAMINA_EXPORT MeshResult generate_mesh(const std::vector<std::string>& inputs, const CaseOptions& options = {},
                                        const Progress& progress = {});
 
-/// Returns whether the flow round these bodies is expected to be faster than sound somewhere at the Mach number of the
-/// conditions: from Mach 1 on, and where the pressures of incompressible `flow` say so
-/// (compressed_pressure_coefficient()). False without a Mach number.
+/// Flow that is faster than sound along fewer chords of the walls than this, as at peaks beside lips and noses, counts as
+/// subsonic.
+inline constexpr double longest_peak = 0.05;
+
+/// Returns whether the flow round these bodies is expected to be faster than sound at the Mach number of the conditions:
+/// from Mach 1 on, and where supersonic_length() of incompressible `flow` is above longest_peak. False without a Mach
+/// number.
 LAMINA_EXPORT bool is_beyond_critical(const Flow& flow, const FlowConditions& conditions);
 
 /// Returns the steady compressible flow without friction at the Mach number of the conditions. Makes a mesh without layers

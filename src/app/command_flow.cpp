@@ -197,8 +197,9 @@ FlowText solve(const Geometry& given, const Geometry& prepared, const FlowCondit
     print_warnings(flow.warnings);
     if (!conditions.mach) return text_of(flow, "", has_layers);
     const std::string before = fmt::format(
-        "Mach {:.4g} is below the critical Mach number: pressures and lift of incompressible flow, after Karman and "
-        "Tsien\n",
+        "Mach {:.4g} is below the critical Mach number, but for short peaks: pressures and lift of incompressible "
+        "flow, "
+        "after Karman and Tsien\n",
         *conditions.mach);
     return text_of(with_compressed_pressures(flow, *conditions.mach), before, has_layers);
 }

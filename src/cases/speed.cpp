@@ -1,42 +1,17 @@
 // Mach numbers for which the settings of the cases are not made.
-#include <algorithm>
-
 #include <fmt/format.h>
 
-#include <lamina/compressible_flow.hpp>
+#include <lamina/flow.hpp>
 #include <lamina/solver_case.hpp>
 
 namespace lamina {
-
-namespace {
-
-/// Returns whether flow of this Mach number, between 0 and 1, is expected to be faster than sound where incompressible
-/// flow has this pressure coefficient.
-bool is_supersonic(double incompressible, double mach) {
-    return compressed_pressure_coefficient(incompressible, mach) < critical_pressure_coefficient(mach);
-}
-
-/// Returns the length of all walls along which the flow is expected to be faster than sound.
-double supersonic_length(const Flow& flow, double mach) {
-    double length = 0;
-    for (const ElementFlow& element : flow.elements)
-        for (const auto* side : {&element.upper, &element.lower})
-            for (std::size_t i = 1; i < side->size(); ++i) {
-                const FlowPoint &a = (*side)[i - 1], &b = (*side)[i];
-                if (is_supersonic(0.5 * (a.pressure_coefficient + b.pressure_coefficient), mach)) length += b.s - a.s;
-            }
-    return length;
-}
-
-}  // namespace
 
 std::vector<Warning> find_speed_warnings(FlowSolver solver, double mach, const Flow* flow) {
     // Up to Mach 0.5 pressures are within 15 % of those of the incompressible flow that the mesh is made for (Prandtl,
     // Glauert). The CRM-HL at Mach 0.2 is supersonic along 0.026 chords by this measure, and its cases run.
     constexpr double largest_mach = 0.5, longest = 0.05;
     double length = 0;
-    if (flow != nullptr && !flow->estimated && mach > 0 && mach < 1)
-        length = supersonic_length(*flow, mach) / flow->chord;
+    if (flow != nullptr && !flow->estimated && mach > 0 && mach < 1) length = supersonic_length(*flow, mach);
     if (mach <= largest_mach && length <= longest) return {};
     const std::string where =
         length > longest

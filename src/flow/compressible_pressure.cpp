@@ -1,4 +1,5 @@
 // Pressures of compressible flow by formulas.
+#include <algorithm>
 #include <cmath>
 
 #include <lamina/compressible_flow.hpp>
@@ -45,12 +46,27 @@ double compressed_pressure_coefficient(double incompressible, double mach) {
     return divisor > 0 ? incompressible / divisor : -HUGE_VAL;
 }
 
+double supersonic_length(const Flow& flow, double mach) {
+    const double critical = critical_pressure_coefficient(mach);
+    double length = 0;
+    for (const ElementFlow& element : flow.elements)
+        for (const auto* side : {&element.upper, &element.lower})
+            for (std::size_t i = 1; i < side->size(); ++i) {
+                const FlowPoint &a = (*side)[i - 1], &b = (*side)[i];
+                const double middle = 0.5 * (a.pressure_coefficient + b.pressure_coefficient);
+                if (compressed_pressure_coefficient(middle, mach) < critical) length += b.s - a.s;
+            }
+    return length / flow.chord;
+}
+
 Flow with_compressed_pressures(Flow flow, double mach) {
+    const double vacuum = -1 / (0.7 * mach * mach);
     for (ElementFlow& element : flow.elements) {
         const double before = lift_on(element, flow.alpha_deg);
         for (auto* side : {&element.upper, &element.lower})
             for (FlowPoint& point : *side)
-                point.pressure_coefficient = compressed_pressure_coefficient(point.pressure_coefficient, mach);
+                point.pressure_coefficient =
+                    std::max(compressed_pressure_coefficient(point.pressure_coefficient, mach), vacuum);
         const double more = (lift_on(element, flow.alpha_deg) - before) / flow.chord;
         element.lift += more;
         flow.lift += more;

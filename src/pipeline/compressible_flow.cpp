@@ -112,14 +112,7 @@ using namespace pipeline;
 
 bool is_beyond_critical(const Flow& flow, const FlowConditions& conditions) {
     if (!conditions.mach) return false;
-    const double mach = *conditions.mach;
-    if (mach >= 1) return true;
-    const double critical = critical_pressure_coefficient(mach);
-    for (const ElementFlow& element : flow.elements)
-        for (const auto* side : {&element.upper, &element.lower})
-            for (const FlowPoint& point : *side)
-                if (compressed_pressure_coefficient(point.pressure_coefficient, mach) < critical) return true;
-    return false;
+    return *conditions.mach >= 1 || supersonic_length(flow, *conditions.mach) > longest_peak;
 }
 
 CompressibleFlow solve_compressible_flow(const Geometry& geometry, const FlowConditions& conditions) {
