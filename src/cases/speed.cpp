@@ -19,7 +19,9 @@ std::vector<Warning> find_speed_warnings(FlowSolver solver, double mach, const F
             : "";
     const std::string advice =
         solver == FlowSolver::su2
-            ? std::string("sizes are those of flow without shocks: make the walls behind them finer (--spacing-max)")
+            ? std::string(
+                  "sizes follow shocks of flow without boundary layers, which has them up to 9 % of the chord too far "
+                  "back: compare with finer meshes (lamina family)")
             : fmt::format(
                   "the settings of the case and sizes are those of Mach {}, without shocks: give "
                   "system/fvSchemes schemes and limiters for them",
