@@ -203,7 +203,11 @@ void start_turbulent(Layer& layer, double momentum, double shape, double speed, 
 /// Separates a laminar layer at a place of an interval.
 void separate_laminar(Layer& layer, const Interval& interval, double t) {
     const double momentum = std::sqrt(layer.squared_momentum), shape = laminar_shape(laminar_separation);
-    layer.separation = {momentum, shape * momentum, laminar_thickness(laminar_separation) * momentum, shape, 0,
+    layer.separation = {momentum,
+                        shape * momentum,
+                        laminar_thickness(laminar_separation) * momentum,
+                        shape,
+                        0,
                         BoundaryLayerState::separated};
     layer.separated_at = interval.s + t * interval.length;
     layer.separation_speed = interval.speed(t);
