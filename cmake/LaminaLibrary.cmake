@@ -14,6 +14,12 @@ target_compile_options(lamina_flags INTERFACE
   "$<${lamina_gcc_like}:-Wall;-Wextra;-Wpedantic;-Wshadow>"
   "$<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>"  # wrong alarms of GCC 12 in std::string
 )
+if(LAMINA_ASSERTIONS)
+  target_compile_options(lamina_flags INTERFACE
+    "$<${lamina_gcc_like}:-UNDEBUG>"  # comes behind the -DNDEBUG of Release
+    "$<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow>"  # wrong alarms of GCC 12 behind assertions of fmt
+  )
+endif()
 if(LAMINA_SANITIZE)
   target_compile_options(lamina_flags INTERFACE
     -fsanitize=${LAMINA_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
