@@ -20,6 +20,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -220,11 +221,36 @@ void find_cavity(const Point* points, const Tri* tris, Index start, const Relati
     cavity.boundary.set_size(boundary_count);
 }
 
+/// Returns whether an edge of the boundary of a cavity, which runs to b, is the edge of the triangle outside, the other
+/// way round, and constrained or not as that triangle knows it. For assertions.
+inline bool is_edge_outside(const Tris& tris, const CavityEdge& edge, Index b) {
+    if (edge.outer.is_border()) return true;
+    if (!is_in_range(tris, edge.outer)) return false;
+    const Tri& t = tris[edge.outer.triangle()];
+    const unsigned k = edge.outer.edge();
+    return t.v[next(k)] == b && t.v[previous(k)] == edge.a && t.n[k].is_constrained() == edge.outer.is_constrained();
+}
+
+/// Returns whether the boundary of a cavity has as many edges as the formula of Euler says of its triangles, and each of
+/// them is that of the triangle outside. For assertions.
+inline bool is_bounded(const Tris& tris, const Cavity& cavity) {
+    if (cavity.triangles.size() == 0 || cavity.boundary.size() != cavity.triangles.size() + 2) return false;
+    for (std::size_t i = 0; i < cavity.boundary.size(); ++i)
+        if (!is_edge_outside(tris, cavity.boundary[i], cavity.boundary[i + 1].a)) return false;
+    return true;
+}
+
+/// Returns whether each of so many triangles has p as its first corner, and is linked. For assertions.
+inline bool is_fan(const Tris& tris, const Index* created, std::size_t count, Index p) {
+    return std::all_of(created, created + count, [&](Index t) { return is_linked(tris, t) && tris[t].v[0] == p; });
+}
+
 /// Replaces the triangles of the cavity by the fan of triangles (p, a, b) over its boundary. Edge 0 of each new
 /// triangle is its edge of the boundary. Calls visit(t, a, b) for each new triangle t on the edge from CavityEdge a to
 /// CavityEdge b.
 template <class Visit>
 void fill_cavity(Tris& tris, Cavity& cavity, Index p, const Visit& visit) {
+    assert(is_bounded(tris, cavity));
     const std::size_t old_count = tris.size();
     const std::size_t k = cavity.boundary.size();
     tris.emplace_back();
@@ -240,6 +266,7 @@ void fill_cavity(Tris& tris, Cavity& cavity, Index p, const Visit& visit) {
     for (std::size_t i = 0; i < k; ++i) {
         const Link outer = boundary[i].outer;
         Tri& t = triangles[current];
+        assert(current < tris.size() && boundary[i].a != p);
         t.v[0] = p;
         t.v[1] = boundary[i].a;
         t.v[2] = boundary[i + 1].a;
@@ -251,6 +278,7 @@ void fill_cavity(Tris& tris, Cavity& cavity, Index p, const Visit& visit) {
         last = current;
         current = created[i + 1];
     }
+    assert(tris.size() == old_count + 2 && is_fan(tris, created, k, p));
 }
 
 inline void fill_cavity(Tris& tris, Cavity& cavity, Index p) {
@@ -267,6 +295,7 @@ inline void fill_cavity(Tris& tris, Cavity& cavity, Index p) {
 ///        '-o-----o-'
 inline std::vector<Index> fill_open_cavity(Tris& tris, const Cavity& cavity, Index p, std::size_t gap) {
     const std::size_t k = cavity.boundary.size();
+    assert(is_bounded(tris, cavity) && gap < k && cavity.boundary[gap].outer.is_border());
     std::vector<Index> created(cavity.triangles.size() + 1);
     for (std::size_t i = 0; i + 1 < created.size(); ++i) created[i] = cavity.triangles[i];
     created.back() = static_cast<Index>(tris.size());
@@ -282,6 +311,8 @@ inline std::vector<Index> fill_open_cavity(Tris& tris, const Cavity& cavity, Ind
         t.n[2] = i > 0 ? Link(created[i - 1], 1) : Link::border();
         connect(tris, created[i], 0, a.outer);
     }
+    // All edges of the boundary but for the gap have a triangle, and the outermost edges at p are borders.
+    assert(created.size() + 1 == k && is_fan(tris, created.data(), created.size(), p));
     return created;
 }
 

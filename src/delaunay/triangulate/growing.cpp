@@ -2,6 +2,7 @@
 #include "delaunay/triangulate/growing.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 #include <utility>
 
@@ -11,6 +12,7 @@
 #include "core/interruption_point.hpp"
 #include "core/parallel.hpp"
 #include "core/text.hpp"
+#include "delaunay/triangulate/conditions.hpp"
 
 namespace lamina::delaunay {
 
@@ -57,6 +59,7 @@ std::vector<Point> vertices_in_order(std::span<const Point> points, const std::v
 ///             ghost 0
 void add_first_triangle(const Point* points, Tris& tris) {
     Index v[3] = {1, 2, 3};
+    assert(tris.empty() && orient2d(points[1], points[2], points[3]) != 0);
     if (orient2d(points[1], points[2], points[3]) < 0) std::swap(v[1], v[2]);
     tris.resize(4);
     for (unsigned e = 0; e < 3; ++e) {
@@ -72,6 +75,7 @@ void add_first_triangle(const Point* points, Tris& tris) {
         // edge starts at v[e+1].
         connect(tris, 1 + e, 0, Link(1 + previous(e), 1));
     }
+    assert(are_linked(tris));
 }
 
 }  // namespace
@@ -97,6 +101,7 @@ void insert_vertices(std::span<const Point> points, std::span<const Index> order
                      GrowingTriangulation& grown) {
     const Point* const vertices = grown.vertices.data();
     Tris& tris = grown.tris;
+    assert(last < grown.vertices.size() && last <= order.size() && is_sphere(tris, first - 1));
     Cavity cavity;
     Index recent = beside_ghost(tris, 0);
     Point from = vertices[tris[recent].v[0]];
@@ -109,10 +114,12 @@ void insert_vertices(std::span<const Point> points, std::span<const Index> order
         if (const Index equal = vertex_at_point(tris[start], relative); equal != no_index)
             fail_duplicate(points, order[equal - 1], order[vertex - 1]);
         find_cavity<true>(vertices, tris.data(), start, relative, p, cavity);
+        assert(is_star(grown.vertices, cavity, p, growing_ghost_vertex));
         fill_cavity(tris, cavity, vertex);
         recent = start_of_next_walk(tris, cavity);
         from = p;
     }
+    assert(is_sphere(tris, last));
 }
 
 }  // namespace lamina::delaunay

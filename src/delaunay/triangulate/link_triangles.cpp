@@ -2,6 +2,7 @@
 #include "delaunay/triangulate/link_triangles.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 #include <vector>
 
@@ -28,6 +29,7 @@ Tris link_triangles(std::span<const Triangle> triangles, std::span<const Segment
         const Link link = edge->second;
         if (!tris[link.triangle()].n[link.edge()].is_border()) constrain_edge(tris, link.triangle(), link.edge());
     }
+    assert(are_linked(tris));
     return tris;
 }
 

@@ -1,5 +1,6 @@
 // An order of triangles that does not depend on the numbers of vertices.
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
 #include <numeric>
 #include <utility>
@@ -79,6 +80,7 @@ std::vector<Index> ranks_of(std::span<const Point> points) {
 // place. They are those of an edge of the border where it has one: of four points on a circle, and two edges of the
 // border between them, rounding decides which diagonal the triangles share, but not which edges they stand on.
 Tris in_order_of_place(std::span<const Point> points, const Tris& tris) {
+    assert(are_linked(tris));
     const std::vector<Index> rank = ranks_of(points);
     const auto starts_border = [&](Index t, unsigned corner) { return tris[t].n[previous(corner)].is_constrained(); };
     std::vector<std::uint8_t> first(tris.size());  // the corner of each triangle that becomes its first
@@ -115,6 +117,7 @@ Tris in_order_of_place(std::span<const Point> points, const Tris& tris) {
             result[i].n[e] = Link(place[n], (link.edge() + 3 - first[n]) % 3, link.is_constrained());
         }
     }
+    assert(are_linked(result));
     return result;
 }
 

@@ -1,13 +1,18 @@
 // Searches and flips in an array of linked triangles.
 #include "delaunay/triangulate/triangles.hpp"
 
+#include <cassert>
+
 namespace lamina::delaunay {
 
 void flip_edge(Tris& tris, Index t, unsigned e) {
+    assert(t < tris.size() && e < 3 && !tris[t].n[e].is_constrained());
     const Tri above = tris[t];
     const Index n = above.n[e].triangle();
     const unsigned k = above.n[e].edge();
     const Tri below = tris[n];
+    assert(is_linked(tris, t) && is_linked(tris, n));
+    assert(t != n && above.v[e] != below.v[k]);
     const Index a = above.v[next(e)], b = above.v[previous(e)], c = above.v[e], d = below.v[k];
     tris[t] = {{c, a, d}, {{}, Link(n, 2), {}}};
     tris[n] = {{c, d, b}, {{}, {}, Link(t, 1)}};
@@ -15,6 +20,7 @@ void flip_edge(Tris& tris, Index t, unsigned e) {
     connect(tris, t, 2, above.n[previous(e)]);
     connect(tris, n, 0, below.n[previous(k)]);
     connect(tris, n, 1, above.n[next(e)]);
+    assert(is_linked(tris, t) && is_linked(tris, n));
 }
 
 std::vector<Index> triangle_at_vertex(const Tris& tris, std::size_t point_count) {

@@ -14,6 +14,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -91,19 +92,52 @@ inline unsigned corner_of(const Tri& t, Index v) { return t.v[0] == v ? 0 : t.v[
 
 using Tris = std::vector<Tri>;
 
+/// Returns whether a link is that of a border, or of an edge of one of the triangles. For assertions.
+inline bool is_in_range(const Tris& tris, Link link) {
+    return link.is_border() || (link.triangle() < tris.size() && link.edge() < 3);
+}
+
+/// Returns whether edge e of triangle t is a border, or the triangle behind it has the same edge, the other way round,
+/// and knows t behind it, constrained or not as t does. For assertions.
+inline bool is_linked(const Tris& tris, Index t, unsigned e) {
+    const Link across = tris[t].n[e];
+    if (across.is_border()) return true;
+    if (!is_in_range(tris, across)) return false;
+    const Tri& other = tris[across.triangle()];
+    const unsigned k = across.edge();
+    return other.n[k] == Link(t, e, across.is_constrained()) && other.v[next(k)] == tris[t].v[previous(e)] &&
+           other.v[previous(k)] == tris[t].v[next(e)];
+}
+
+/// Returns the same for all edges of a triangle. For assertions.
+inline bool is_linked(const Tris& tris, Index t) {
+    return t < tris.size() && is_linked(tris, t, 0) && is_linked(tris, t, 1) && is_linked(tris, t, 2);
+}
+
+/// Returns the same for all triangles. For assertions where all of them were written.
+inline bool are_linked(const Tris& tris) {
+    for (Index t = 0; t < tris.size(); ++t)
+        if (!is_linked(tris, t)) return false;
+    return true;
+}
+
 /// Makes an edge of `triangle` and the edge behind `outer` neighbours. The edge becomes constrained if `outer` is.
 inline void connect(Tris& tris, Index triangle, unsigned edge, Link outer) {
+    assert(triangle < tris.size() && edge < 3);
+    assert(is_in_range(tris, outer) && outer != Link(triangle, edge, outer.is_constrained()));
     tris[triangle].n[edge] = outer;
     if (!outer.is_border()) tris[outer.triangle()].n[outer.edge()] = Link(triangle, edge, outer.is_constrained());
 }
 
 /// Makes an edge constrained, as both of its triangles know it.
 inline void constrain_edge(Tris& tris, Index triangle, unsigned edge) {
+    assert(is_linked(tris, triangle, edge));
     connect(tris, triangle, edge, tris[triangle].n[edge].constrained());
 }
 
 /// Makes an edge with two triangles one that cavities may reach across.
 inline void release_edge(Tris& tris, Index triangle, unsigned edge) {
+    assert(!tris[triangle].n[edge].is_border() && is_linked(tris, triangle, edge));
     connect(tris, triangle, edge, tris[triangle].n[edge].unconstrained());
 }
 

@@ -4,10 +4,12 @@
 #include "delaunay/triangulate/triangulate_points.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 #include "delaunay/triangulate/arguments.hpp"
 #include "delaunay/triangulate/brio.hpp"
+#include "delaunay/triangulate/conditions.hpp"
 #include "delaunay/triangulate/growing.hpp"
 
 namespace lamina::delaunay {
@@ -25,6 +27,7 @@ void renumber_ghost_vertex(Tris& tris, Index first) {
     Index t = first;
     do {
         Tri& tri = tris[t];
+        assert(has_corner(tri, growing_ghost_vertex));
         const unsigned i = tri.v[0] == growing_ghost_vertex ? 0 : tri.v[1] == growing_ghost_vertex ? 1 : 2;
         tri.v[i] = ghost_vertex;
         t = tri.n[next(i)].triangle();
@@ -35,11 +38,13 @@ void renumber_ghost_vertex(Tris& tris, Index first) {
 
 Tris triangulate_points(std::span<const Point> points, std::span<const std::uint32_t> stand_in) {
     check_points(points);
+    assert(stand_in.empty() || stand_in.size() == points.size());
     Box box;
     for (const Point p : points) box.include(p);
     std::vector<Index> order = brio_order(points, box);
     if (!stand_in.empty()) std::erase_if(order, [&](Index i) { return stand_in[i] != i; });
     Tris tris = grow(points, order).tris;
+    assert(is_sphere(tris, order.size()) && are_linked(tris));
     order.insert(order.begin(), ghost_vertex);  // now vertex v is the point order[v]
     for (Tri& t : tris)
         for (Index& v : t.v) v = order[v];
@@ -54,6 +59,7 @@ OrderedTriangulation triangulate_in_order(std::span<const Point> points, std::ve
     for (Index t = 0; t < result.tris.size(); ++t)
         for (const Index v : result.tris[t].v) result.at_vertex[v] = t;
     renumber_ghost_vertex(result.tris, result.at_vertex[growing_ghost_vertex]);
+    assert(is_sphere(result.tris, order.size()));
     return result;
 }
 
