@@ -12,6 +12,7 @@
 #include "core/predicates.hpp"
 #include "core/text.hpp"
 #include "delaunay/triangulate/arguments.hpp"
+#include "delaunay/triangulate/conditions.hpp"
 #include "delaunay/triangulate/link_triangles.hpp"
 #include "delaunay/triangulate/triangulate_points.hpp"
 
@@ -37,6 +38,7 @@ void flip_to_delaunay(std::span<const Point> points, Tris& tris) {
             0)
             continue;
         flip_edge(tris, t, edge.edge());
+        assert(is_counter_clockwise(points, tris[t]) && is_counter_clockwise(points, tris[n]));
         for (const Link around : {Link(t, 0), Link(t, 2), Link(n, 0), Link(n, 1)}) edges.push_back(around);
     }
 }

@@ -71,6 +71,8 @@ DistinctInput distinct_input(const MergedInput& input) {
 
 /// Gives the points of a triangulation their indices in the input, which has `points` of them.
 void restore_indices(const std::vector<Index>& original, std::size_t points, TriangulatedPieces& triangulated) {
+    assert(original.size() == triangulated.at_vertex.size());
+    assert(original.empty() || original.back() < points);
     core::parallel_for(triangulated.tris.size(), segment_grain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t t = begin; t < end; ++t)
             for (Index& v : triangulated.tris[t].v)

@@ -15,6 +15,7 @@
 #include "core/predicates.hpp"
 #include "delaunay/constrain/insert_segments.hpp"
 #include "delaunay/constrain/regions.hpp"
+#include "delaunay/triangulate/conditions.hpp"
 #include "delaunay/triangulate/triangulate_points.hpp"
 
 namespace lamina::delaunay {
@@ -53,6 +54,9 @@ void CrossedPolygons::add(std::vector<Index>& chain, Index triangle, unsigned ed
 }
 
 void CrossedPolygons::fill() {
+    // By Euler's formula so many edges surround the crossed triangles. Both chains run from a to b.
+    assert(!crossed_.empty() && left_.size() + right_.size() == crossed_.size() + 2);
+    assert(edges_[left_.front()].b == edges_[right_.front()].a && edges_[left_.back()].a == edges_[right_.back()].b);
     pair_dangling_edges();
     chain_ = left_;
     const Link left = fill_chain();
@@ -60,6 +64,11 @@ void CrossedPolygons::fill() {
     chain_.assign(right_.rbegin(), right_.rend());
     const Link right = fill_chain();
     connect(tris_, left.triangle(), left.edge(), right.constrained());
+    // Both polygons have taken all places, and the segment is an edge that both sides know.
+    assert(crossed_.empty() && tris_[left.triangle()].n[left.edge()].is_constrained());
+    assert(is_linked(tris_, left.triangle(), left.edge()));
+    assert(tris_[left.triangle()].v[next(left.edge())] == edges_[left_.front()].b);
+    assert(tris_[left.triangle()].v[previous(left.edge())] == edges_[left_.back()].a);
 }
 
 /// Sets the partners of the chain edges whose other side is removed, too. The removed triangles serve as a table: their
@@ -84,7 +93,10 @@ void CrossedPolygons::pair_dangling_edges() {
 Link CrossedPolygons::fill_chain() {
     // Seen from the crossed triangles the edges run against the chain, which has its polygon on the right.
     vertices_.assign(1, edges_[chain_.front()].b);
-    for (Index e : chain_) vertices_.push_back(edges_[e].a);
+    for (Index e : chain_) {
+        assert(edges_[e].b == vertices_.back());
+        vertices_.push_back(edges_[e].a);
+    }
     return fill_ranges();
 }
 
@@ -114,6 +126,7 @@ Link CrossedPolygons::fill_ranges() {
             continue;
         }
         const std::size_t k = opposite_vertex(r.low, r.high);
+        assert(!crossed_.empty());
         const Index t = crossed_.back();
         crossed_.pop_back();
         const Index v[3] = {vertices_[r.low], vertices_[r.high], vertices_[k]};
@@ -122,6 +135,7 @@ Link CrossedPolygons::fill_ranges() {
             tris_[t].n[i] = Link::border();
             set_triangle_at(v[i], t);
         }
+        assert(is_counter_clockwise(points_, tris_[t]));
         if (r.base.is_border())
             at_base = Link(t, 2);
         else
@@ -135,6 +149,7 @@ Link CrossedPolygons::fill_ranges() {
         else
             ranges_.push_back({r.low, k, Link(t, 1)});
     }
+    assert(!at_base.is_border());
     return at_base;
 }
 
@@ -161,11 +176,13 @@ std::size_t CrossedPolygons::opposite_vertex(std::size_t low, std::size_t high) 
 /// triangle as well: the later one of the two connects both.
 void CrossedPolygons::attach(Index chain_edge, Index triangle, unsigned edge) {
     ChainEdge& c = edges_[chain_edge];
+    assert(c.filled.is_border() && tris_[triangle].v[next(edge)] == c.a && tris_[triangle].v[previous(edge)] == c.b);
     c.filled = Link(triangle, edge);
     if (c.partner == no_index)
         connect(tris_, triangle, edge, c.outer);
     else if (const Link other = edges_[c.partner].filled; !other.is_border())
         connect(tris_, triangle, edge, Link(other.triangle(), other.edge(), c.outer.is_constrained()));
+    assert(is_linked(tris_, triangle, edge));
 }
 
 /// Fills the polygon between a part of the chain and its base by the constrained triangulation of its vertices, of
@@ -204,19 +221,22 @@ Link CrossedPolygons::fill_long_range(std::size_t low, std::size_t high) {
         for (unsigned e = 0; e < 3; ++e) {
             if (!inside[i].n[e].is_constrained()) continue;
             const std::uint64_t edge = directed_key(inside[i].v[next(e)], inside[i].v[previous(e)]);
-            const Index index =
-                std::lower_bound(border_index.begin(), border_index.end(), std::pair{edge, Index{0}})->second;
+            const auto found = std::lower_bound(border_index.begin(), border_index.end(), std::pair{edge, Index{0}});
+            assert(found != border_index.end() && found->first == edge);
+            const Index index = found->second;
             if (index + 1 == border.size())
                 at_base = Link(places[i], e);
             else
                 attach(chain_[low + index], places[i], e);
         }
+    assert(!at_base.is_border());
     return at_base;
 }
 
 /// Copies the triangles inside a polygon to the places at the end of crossed_, in global numbers, with links between
 /// each other alone. Returns the place of each triangle.
 std::vector<Index> CrossedPolygons::replace_crossed(const Tris& inside, std::span<const Index> global) {
+    assert(inside.size() <= crossed_.size());
     std::vector<Index> places(crossed_.end() - static_cast<std::ptrdiff_t>(inside.size()), crossed_.end());
     crossed_.resize(crossed_.size() - inside.size());
     for (std::size_t i = 0; i < inside.size(); ++i)

@@ -137,6 +137,8 @@ public:
             Index end = departure.along;
             if (end != no_index) {
                 const Link edge = departure.exit;
+                assert(tris_[edge.triangle()].v[next(edge.edge())] == departure.at);
+                assert(tris_[edge.triangle()].v[previous(edge.edge())] == end);
                 const Link across = tris_[edge.triangle()].n[edge.edge()];
                 if (!reach_.has_triangle(edge.triangle()) || !reach_.has_triangle(across.triangle())) {
                     outcome = Insertion::beyond;
@@ -149,6 +151,7 @@ public:
                 if (outcome != Insertion::complete) break;
                 polygons_.fill();
             }
+            assert(end != departure.at && end < at_vertex_.size());
             if (forward)
                 pieces.push_back({{VertexId{from}, VertexId{end}}, parent, repeats});
             else
@@ -156,6 +159,8 @@ public:
             (forward ? from : to) = end;
         }
         pieces.insert(pieces.end(), at_far_end_.rbegin(), at_far_end_.rend());
+        assert(outcome != Insertion::complete || input_.segments[segment].a == input_.segments[segment].b ||
+               (pieces.back().parent == parent && pieces.back().segment.b == input_.segments[segment].b));
         return outcome;
     }
 
@@ -171,12 +176,16 @@ private:
         return cross_properly(points[a], points[b], points[c], points[d]);
     }
 
+    /// Returns whether a triangle is known that has v as a corner. Precondition: v is within reach.
+    bool is_vertex(Index v) const { return at_vertex_[v] < tris_.size() && has_corner(tris_[at_vertex_[v]], v); }
+
     /// Returns how the segment a-b leaves a or, where many edges meet at a, one of its ends. So hubs of n segments do
     /// not take O(n^2): in a planar graph the smaller degrees of the ends of its n edges add up to O(n).
     /// Precondition: an end is within reach.
     Departure depart(Index a, Index b) const {
         if (!reach_.has_vertex(a)) return depart_from(b, a);
         if (!reach_.has_vertex(b)) return depart_from(a, b);
+        assert(is_vertex(a) && is_vertex(b));
         // Most segments are edges already, and no arithmetic is needed to see that.
         if (const Link edge = find_edge(tris_, at_vertex_, a, b); !edge.is_border()) return {a, b, edge};
         constexpr unsigned many_edges = 64;
@@ -187,6 +196,7 @@ private:
     }
 
     Departure depart_from(Index at, Index target) const {
+        assert(is_vertex(at));
         Departure departure{};
         DepartureSearch search(input_, tris_, at_vertex_[at], at, target);
         while (!search.step(departure)) continue;
@@ -201,6 +211,7 @@ private:
         polygons_.clear();
         Index t = exit.triangle();
         unsigned e = exit.edge();
+        assert(tris_[t].v[e] == a);
         if (!reach_.has_triangle(t)) return Insertion::beyond;
         polygons_.add_crossed(t);
         polygons_.add_left(t, next(e));

@@ -1,6 +1,7 @@
 #include "delaunay/constrain/piece_edges.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
 #include <numeric>
 #include <utility>
@@ -35,7 +36,9 @@ PieceEdge edge_of(std::span<const Point> points, const Segment& segment) {
 }
 
 std::size_t PieceEdges::find(const PieceEdge& edge) const {
-    return static_cast<std::size_t>(std::lower_bound(edges.begin(), edges.end(), edge) - edges.begin());
+    const auto found = std::lower_bound(edges.begin(), edges.end(), edge);
+    assert(found != edges.end() && *found == edge);
+    return static_cast<std::size_t>(found - edges.begin());
 }
 
 PieceEdges edges_of(std::span<const Point> points, std::span<const SegmentPiece> pieces) {

@@ -25,6 +25,7 @@
 #include "delaunay/constrain/planarize.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <map>
 #include <tuple>
@@ -285,6 +286,7 @@ std::vector<EdgeCut> Planarizer::cuts_at_crossings(const std::vector<EdgeCrossin
         Index v = meeting_vertex(c);
         if (v == no_index && is_new_place(c)) {
             v = static_cast<Index>(points_.size());
+            assert(vertex_at_.find(c.at) == vertex_at_.end());
             points_.push_back(c.at);
             vertex_at_.emplace(c.at, v);
         }
@@ -376,7 +378,10 @@ std::vector<Index> Planarizer::chain_of(std::size_t edge, const std::vector<Edge
     };
     if (std::adjacent_find(first, last, too_long) != last) last = first + 1;
     std::vector<Index> chain{a};
-    for (auto c = first; c != last; ++c) chain.push_back(c->vertex);
+    for (auto c = first; c != last; ++c) {
+        assert(c->vertex < points_.size() && !is_end(edge, c->vertex));
+        chain.push_back(c->vertex);
+    }
     chain.push_back(b);
     return chain;
 }
@@ -390,6 +395,7 @@ void Planarizer::split_pieces(std::vector<EdgeCut> cuts) {
         const PieceEdge edge = edge_of(points_, piece.segment);
         std::vector<Index> chain = chain_of(edges_.find(edge), cuts);
         if (chain.front() != piece.segment.a.value) std::reverse(chain.begin(), chain.end());
+        assert(chain.front() == piece.segment.a.value && chain.back() == piece.segment.b.value);
         for (std::size_t i = 0; i + 1 < chain.size(); ++i)
             result.push_back({{VertexId{chain[i]}, VertexId{chain[i + 1]}}, piece.parent});
     }
@@ -403,13 +409,17 @@ void append_without_detours(std::span<const Point> points, std::span<const Segme
     const VertexId from = chain.front().segment.a, to = chain.back().segment.b;
     const bool forward = lexicographically_less(points[from.index()], points[to.index()]);
     std::vector<VertexId> vertices{from};
-    for (const SegmentPiece& piece : chain) vertices.push_back(piece.segment.b);
+    for (const SegmentPiece& piece : chain) {
+        assert(piece.segment.a == vertices.back());
+        vertices.push_back(piece.segment.b);
+    }
     if (!forward) std::reverse(vertices.begin(), vertices.end());
     std::map<VertexId, std::size_t> last_visit;
     for (std::size_t i = 0; i < vertices.size(); ++i) last_visit[vertices[i]] = i;
     std::vector<VertexId> direct;
     for (std::size_t i = 0; i < vertices.size(); i = last_visit[vertices[i]] + 1) direct.push_back(vertices[i]);
     if (!forward) std::reverse(direct.begin(), direct.end());
+    assert(direct.front() == from && direct.back() == to);
     for (std::size_t i = 0; i + 1 < direct.size(); ++i)
         result.push_back({{direct[i], direct[i + 1]}, chain.front().parent});
 }

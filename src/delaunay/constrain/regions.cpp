@@ -1,6 +1,8 @@
 // Selections are floods that stop at constrained edges.
 #include "delaunay/constrain/regions.hpp"
 
+#include <cassert>
+
 #include <lamina/error.hpp>
 
 #include "core/predicates.hpp"
@@ -140,6 +142,7 @@ std::vector<std::uint32_t> spread_values(const Tris& tris, std::span<const Value
 }
 
 Tris keep_selected(const Tris& tris, const TriangleSelection& selection) {
+    assert(selection.size() == tris.size());
     std::vector<Index> renumbered(tris.size(), no_index);
     Index count = 0;
     for (Index t = 0; t < tris.size(); ++t)
@@ -154,6 +157,7 @@ Tris keep_selected(const Tris& tris, const TriangleSelection& selection) {
             n = other == no_index ? Link::border() : Link(other, n.edge(), n.is_constrained());
         }
     }
+    assert(are_linked(kept));
     return kept;
 }
 
