@@ -2,6 +2,7 @@
 #include <lamina/dynamic_triangulation.hpp>
 
 #include <algorithm>
+#include <cassert>
 #include <string>
 #include <utility>
 
@@ -13,6 +14,7 @@
 #include "core/text.hpp"
 #include "delaunay/dynamic/dynamic_tris.hpp"
 #include "delaunay/triangulate/brio.hpp"
+#include "delaunay/triangulate/conditions.hpp"
 #include "delaunay/triangulate/hilbert.hpp"
 #include "delaunay/triangulate/walk.hpp"
 
@@ -124,6 +126,7 @@ VertexId DynamicTriangulation::insert(Point p) {
     data.recent = data.insert(v, near);
     const VertexId id = data.id(data.recent);
     if (data.recent != v) data.drop_last_point();
+    assert(is_sphere(data.tris(), data.alive_count()));
     return id;
 }
 
@@ -147,6 +150,7 @@ std::vector<VertexId> DynamicTriangulation::insert(std::span<const Point> points
         ids[order[k]] = data.id(near);
     }
     data.recent = near;
+    assert(is_sphere(data.tris(), data.alive_count()));
     return ids;
 }
 

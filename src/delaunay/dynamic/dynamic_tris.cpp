@@ -4,6 +4,7 @@
 #include "delaunay/dynamic/dynamic_tris.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -12,6 +13,7 @@
 
 #include "core/predicates.hpp"
 #include "core/random.hpp"
+#include "delaunay/triangulate/conditions.hpp"
 #include "delaunay/triangulate/walk.hpp"
 
 namespace lamina::delaunay::dynamic {
@@ -38,6 +40,7 @@ Index DynamicTris::append(std::span<const Point> points) {
 }
 
 void DynamicTris::drop_last() {
+    assert(!alive_.back() && at_vertex_.back() == no_index);
     vertices_.pop_back();
     alive_.pop_back();
     at_vertex_.pop_back();
@@ -75,6 +78,7 @@ std::optional<Index> DynamicTris::find(Point p, Index near) const {
 }
 
 Index DynamicTris::insert(Index v, Index near) {
+    assert(v < vertices_.size() && at_vertex_[v] == no_index && at_vertex_[near] != no_index);
     const Point p = vertices_[v];
     const Index t = walk_from(near, p);
     for (const Index w : tris_[t].v)
@@ -90,6 +94,7 @@ Index DynamicTris::insert(Index v, Index near) {
     }
     const RelativeTriangle relative = relative_to(vertices_.data(), tris_[t], p);
     find_cavity<true>(vertices_.data(), tris_.data(), t, relative, p, cavity_);
+    assert(is_star(vertices_, cavity_, p, infinity));
     fill_cavity(tris_, cavity_, v, [&](Index made, const CavityEdge& from, const CavityEdge&) {
         at_vertex_[from.a] = made;
         at_vertex_[v] = made;
@@ -97,16 +102,19 @@ Index DynamicTris::insert(Index v, Index near) {
     if (a != no_index) {
         for (const Index end : {a, b}) {
             const Link edge = find_edge(tris_, at_vertex_, v, end);
+            assert(!edge.is_border());
             constrain_edge(tris_, edge.triangle(), edge.edge());
         }
     }
     alive_[v] = 1;
     ++alive_count_;
+    assert(has_corner(tris_[at_vertex_[v]], v));
     return v;
 }
 
 /// Makes a triangle of three vertices, which do not lie on one line, and its ghosts.
 void DynamicTris::make_first_triangle(Index a, Index b, Index c) {
+    assert(tris_.empty() && orient2d(vertices_[a], vertices_[b], vertices_[c]) != 0);
     if (orient2d(vertices_[a], vertices_[b], vertices_[c]) < 0) std::swap(b, c);
     tris_.resize(4);
     set_triangle(0, a, b, c);
@@ -117,6 +125,7 @@ void DynamicTris::make_first_triangle(Index a, Index b, Index c) {
     }
     // Edge 0 of a ghost runs from v[e+1] to infinity; its neighbour is the ghost across edge e + 2.
     for (unsigned e = 0; e < 3; ++e) connect(tris_, 1 + e, 0, Link(1 + previous(e), 1));
+    assert(are_linked(tris_) && is_counter_clockwise(vertices_, tris_[0]));
 }
 
 std::vector<Index> DynamicTris::insert_without_triangles(Index first) {
@@ -136,6 +145,7 @@ std::vector<Index> DynamicTris::insert_without_triangles(Index first) {
         alive_[v] = at == v;
     }
     insert_all(sequence);
+    assert(is_sphere(tris_, alive_count_));
     return found;
 }
 
@@ -218,6 +228,7 @@ std::optional<std::vector<Link>> DynamicTris::find_constrained_way(Index a, Inde
 
 void DynamicTris::release(std::span<const Link> edges) {
     for (const Link edge : edges) {
+        assert(tris_[edge.triangle()].n[edge.edge()].is_constrained());
         release_edge(tris_, edge.triangle(), edge.edge());
         to_check_.push_back(edge);
     }
@@ -239,6 +250,7 @@ void DynamicTris::flip_until_delaunay() {
                                             vertices_[opposite]) <= 0)
             continue;
         flip_edge(tris_, t, edge.edge());
+        assert(is_counter_clockwise(vertices_, tris_[t]) && is_counter_clockwise(vertices_, tris_[n]));
         for (const Index v : tris_[t].v) at_vertex_[v] = t;
         for (const Index v : tris_[n].v) at_vertex_[v] = n;
         for (const Link around : {Link(t, 0), Link(t, 2), Link(n, 0), Link(n, 1)}) to_check_.push_back(around);

@@ -17,6 +17,7 @@
 
 #include "core/predicates.hpp"
 #include "delaunay/dynamic/dynamic_tris.hpp"
+#include "delaunay/triangulate/conditions.hpp"
 #include "delaunay/triangulate/walk.hpp"
 
 namespace lamina::delaunay::dynamic {
@@ -25,10 +26,12 @@ namespace lamina::delaunay::dynamic {
 void DynamicTris::collect_star(Index v) {
     star_.clear();
     places_.clear();
+    assert(has_corner(tris_[at_vertex_[v]], v));
     const Index first = at_vertex_[v];
     Index t = first;
     do {
         const unsigned i = corner_of(tris_[t], v);
+        assert(is_linked(tris_, t) && !tris_[t].n[next(i)].is_constrained());
         star_.push_back({tris_[t].v[next(i)], tris_[t].n[i]});
         places_.push_back(t);
         t = tris_[t].n[next(i)].triangle();
@@ -70,11 +73,13 @@ Index DynamicTris::cut_ears(Point removed, std::size_t least_corners) {
         StarCorner& cut = star_[ear.corner];
         if (cut.is_cut || cut.before != ear.before || cut.after != ear.after) continue;
         StarCorner &before = star_[ear.before], &after = star_[ear.after];
+        assert(!places_.empty() && ear.corner != ear.before && ear.before != ear.after);
         const Index t = places_.back();
         places_.pop_back();
         set_triangle(t, before.vertex, cut.vertex, after.vertex);
         connect(tris_, t, 2, before.outer);
         connect(tris_, t, 0, cut.outer);
+        assert(is_counter_clockwise(vertices_, tris_[t]) && is_linked(tris_, t, 2) && is_linked(tris_, t, 0));
         before.outer = Link(t, 1);
         to_check_.push_back(before.outer);
         cut.is_cut = true;
@@ -98,6 +103,7 @@ void DynamicTris::close_inner(Index first) {
     connect(tris_, t, 2, a.outer);
     connect(tris_, t, 0, b.outer);
     connect(tris_, t, 1, c.outer);
+    assert(is_counter_clockwise(vertices_, tris_[t]) && is_linked(tris_, t));
 }
 
 /// Makes ghosts on the chain that is left of a polygon whose last corner is at infinity.
@@ -106,32 +112,41 @@ void DynamicTris::close_inner(Index first) {
 ///      |      |      |      that from infinity to x0.
 void DynamicTris::close_hull() {
     const StarCorner& at_infinity = star_.back();
+    assert(at_infinity.vertex == growing_ghost_vertex && !at_infinity.is_cut);
     Link before = at_infinity.outer;  // across infinity -> x0
     for (Index i = at_infinity.after; star_[i].after + 1 != star_.size(); i = star_[i].after) {
+        assert(!places_.empty());
         const Index t = places_.back();
         places_.pop_back();
         set_triangle(t, star_[i].vertex, star_[star_[i].after].vertex, growing_ghost_vertex);
         connect(tris_, t, 2, star_[i].outer);
         connect(tris_, t, 1, before);
+        assert(is_linked(tris_, t, 2) && is_linked(tris_, t, 1));
         before = Link(t, 0);
     }
     const Link last = star_[at_infinity.before].outer;  // across the last x -> infinity
     connect(tris_, before.triangle(), before.edge(), last);
+    assert(is_linked(tris_, before.triangle(), before.edge()));
 }
 
 /// Moves the last triangle to a place that is free.
 void DynamicTris::free_place(Index t) {
     const auto last = static_cast<Index>(tris_.size() - 1);
+    // It is that of a triangle that was removed: none knows it as a neighbour, nor any vertex as one of its triangles.
+    assert(t <= last && !is_linked(tris_, t));
+    assert(std::none_of(tris_[t].v, tris_[t].v + 3, [&](Index v) { return at_vertex_[v] == t; }));
     if (t != last) {
         tris_[t] = tris_[last];
         for (unsigned e = 0; e < 3; ++e) connect(tris_, t, e, tris_[t].n[e]);
         for (const Index v : tris_[t].v)
             if (at_vertex_[v] == last) at_vertex_[v] = t;
+        assert(is_linked(tris_, t));
     }
     tris_.pop_back();
 }
 
 void DynamicTris::remove(Index v) {
+    assert(is_alive(v) && !has_constrained_edge(v));
     alive_[v] = 0;
     --alive_count_;
     if (tris_.empty()) return;
@@ -155,6 +170,7 @@ void DynamicTris::remove(Index v) {
     assert(places_.size() == 2);
     if (places_[0] < places_[1]) std::swap(places_[0], places_[1]);
     for (const Index place : places_) free_place(place);
+    assert(is_sphere(tris_, alive_count_));
 }
 
 }  // namespace lamina::delaunay::dynamic
