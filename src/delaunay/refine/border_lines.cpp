@@ -2,6 +2,7 @@
 #include "delaunay/refine/border_lines.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -57,6 +58,7 @@ Index BorderLines::line_of_edge(Index a, Index b) const {
 }
 
 void BorderLines::add_vertex(Index v, Index line) {
+    assert(v >= line_of_vertex_.size() && line < lines_.size());
     line_of_vertex_.resize(v, no_index);
     line_of_vertex_.push_back(line);
     ++splits_;

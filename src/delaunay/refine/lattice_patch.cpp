@@ -2,8 +2,10 @@
 #include "delaunay/refine/lattice_patch.hpp"
 
 #include <bit>
+#include <cassert>
 
 #include "core/interruption_point.hpp"
+#include "core/predicates.hpp"
 
 namespace lamina::delaunay {
 
@@ -161,7 +163,12 @@ private:
         last_position_ = position;
         return t;
     }
+    /// Returns the end of an edge of a triangle: its begin with `end` = 0, else 1.
+    VertexId end_of(core::EdgeLink edge, unsigned end) const {
+        return patches_.triangles[core::triangle_of(edge)].v[(core::edge_of(edge) + end) % 3];
+    }
     void connect(core::EdgeLink a, core::EdgeLink b) {
+        assert(end_of(a, 0) == end_of(b, 1) && end_of(a, 1) == end_of(b, 0));
         patches_.links[3 * core::triangle_of(a) + core::edge_of(a)] = b;
         patches_.links[3 * core::triangle_of(b) + core::edge_of(b)] = a;
     }
@@ -199,10 +206,12 @@ public:
         for (std::size_t w = 0; w < words_; ++w) {
             const auto add_up = [&](std::size_t i) {
                 patches.triangles.push_back({{here(i), here(i + 1), above(i + odd_)}});
+                assert(is_counter_clockwise(patches.triangles.back(), patches.points));
                 if (patches.linked) linker.add_up(i, 2 * i + 2 + odd_, (down_here_[w] >> (i % 64) & 1) != 0);
             };
             const auto add_down = [&](std::size_t i) {
                 patches.triangles.push_back({{above(i + 1), above(i), here(i + 1 - odd_)}});
+                assert(is_counter_clockwise(patches.triangles.back(), patches.points));
                 if (patches.linked) linker.add_down(i, 2 * i + 3 - odd_);
             };
             // The triangles form a strip, each beside the one before.
@@ -220,6 +229,8 @@ public:
         const auto add = [&](VertexId a, VertexId b, const std::vector<std::uint32_t>& of_column, std::size_t i,
                              unsigned edge) {
             patches.boundary.push_back({b, a});
+            assert(!patches.linked || (patches.triangles[of_column[i]].v[edge] == a &&
+                                       patches.triangles[of_column[i]].v[(edge + 1) % 3] == b));
             if (patches.linked) patches.boundary_links.push_back(core::edge_link(of_column[i], edge));
         };
         for (std::size_t w = 0; w < words_; ++w) {
@@ -246,6 +257,9 @@ private:
     const Word *up_, *down_here_, *down_, *up_above_;
     const std::vector<std::uint32_t>&here_, &above_;
 
+    static bool is_counter_clockwise(const Triangle& t, const std::vector<Point>& points) {
+        return core::inline_orient2d(points[t.v[0].index()], points[t.v[1].index()], points[t.v[2].index()]) > 0;
+    }
     VertexId here(std::size_t i) const { return VertexId{std::size_t{here_[i]}}; }
     VertexId above(std::size_t i) const { return VertexId{std::size_t{above_[i]}}; }
 };

@@ -2,10 +2,12 @@
 #include "delaunay/refine/patch.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "core/predicates.hpp"
 #include "delaunay/refine/triangle_shape.hpp"
+#include "delaunay/triangulate/conditions.hpp"
 
 namespace lamina::delaunay {
 
@@ -140,6 +142,7 @@ bool PatchSettler::restore_delaunay(Patch& patch) {
         ++patch.degrees[tri.v[e]];
         ++patch.degrees[d];
         flip_edge(patch.tris, t, e);
+        assert(is_counter_clockwise(patch.points, patch.tris[t]) && is_counter_clockwise(patch.points, patch.tris[n]));
         for (const QueuedEdge edge : {QueuedEdge{t, 0}, QueuedEdge{t, 2}, QueuedEdge{n, 0}, QueuedEdge{n, 1}})
             pending_.push_back(edge);
     }

@@ -1,5 +1,6 @@
 // Changes of the connectivity of patches.
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 #include "delaunay/refine/patch.hpp"
@@ -106,17 +107,21 @@ void remove_flat(Patch& patch, Index t, unsigned between) {
     if (other.is_constrained()) one = one.constrained();
     if (!one.is_border()) patch.tris[one.triangle()].n[one.edge()] = other;
     if (!other.is_border()) patch.tris[other.triangle()].n[other.edge()] = one;
+    assert(one.is_border() || is_linked(patch.tris, one.triangle(), one.edge()));
+    assert(other.is_border() || is_linked(patch.tris, other.triangle(), other.edge()));
     patch.tris[t] = {{no_index, no_index, no_index}, {}};
 }
 
 /// Merges the ends of edge e of t: one that is fixed stays, two that are free meet in the middle.
 bool merge(Patch& patch, Index t, unsigned e) {
     const Link across = patch.tris[t].n[e];
+    assert(!across.is_constrained() && is_linked(patch.tris, t, e));
     const Index n = across.triangle();
     Index kept = patch.tris[t].v[next(e)], removed = patch.tris[t].v[previous(e)];
     if (patch.is_fixed[removed]) std::swap(kept, removed);
     const Index c = patch.tris[t].v[e], d = patch.tris[n].v[across.edge()];
     const std::vector<Link> star = star_of(patch.tris, t, corner_of(patch.tris[t], removed));
+    assert(!patch.is_fixed[removed] && c != d && star.size() == patch.degrees[removed]);
     if (have_other_common_neighbour(patch, star, kept, c, d)) return false;
     if (!patch.is_fixed[kept]) patch.points[kept] = midpoint(patch.points[kept], patch.points[removed]);
     std::vector<Link> old_star;
@@ -129,6 +134,9 @@ bool merge(Patch& patch, Index t, unsigned e) {
     patch.is_fixed[removed] = 1;
     --patch.degrees[c];
     --patch.degrees[d];
+    // Two triangles fewer, and one vertex: the others round both vertices are neighbours of each other.
+    assert(patch.is_removed(t) && patch.is_removed(n));
+    assert(std::all_of(star.begin(), star.end(), [&](Link l) { return is_linked(patch.tris, l.triangle()); }));
     return are_positive(patch, star) && are_positive(patch, old_star);
 }
 
@@ -145,6 +153,7 @@ bool split(Patch& patch, Index t, unsigned corner, unsigned count) {
     constexpr double share_of_way = 0.3;
     const std::vector<Link> star = star_of(patch.tris, t, corner);
     const auto degree = static_cast<unsigned>(star.size());
+    assert(2 <= count && count < degree && degree == patch.degrees[patch.tris[t].v[corner]]);
     const Index w = patch.tris[t].v[corner], created = static_cast<Index>(patch.points.size());
     const auto neighbour = [&](unsigned i) {
         const Link at = star[i % degree];
@@ -175,6 +184,9 @@ bool split(Patch& patch, Index t, unsigned corner, unsigned count) {
     connect(patch.tris, a, 2, Link(before.triangle(), next(before.edge())));
     connect(patch.tris, b, 0, Link(last.triangle(), next(last.edge())));
     connect(patch.tris, b, 1, Link(after.triangle(), previous(after.edge())));
+    // Two triangles more, and one vertex.
+    assert(patch.tris.size() == b + std::size_t{1} && is_linked(patch.tris, a) && is_linked(patch.tris, b));
+    assert(std::all_of(star.begin(), star.end(), [&](Link l) { return is_linked(patch.tris, l.triangle()); }));
     return is_positive(patch, a) && is_positive(patch, b) && are_positive(patch, star);
 }
 

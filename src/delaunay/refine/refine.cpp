@@ -1,5 +1,6 @@
 // refine() fills large, evenly sized parts of the region with lattices where that pays, and refines all the rest.
 #include <algorithm>
+#include <cassert>
 #include <utility>
 #include <vector>
 
@@ -64,7 +65,9 @@ void join_links(const LatticePatches& patches, std::size_t border_count, const c
     const auto connect = [&](core::EdgeLink from, core::EdgeLink to) {
         links[3 * core::triangle_of(from) + core::edge_of(from)] = to;
     };
+    assert(of_patches.size() == of_seam.size());
     for (std::size_t k = 0; k < std::min(of_patches.size(), of_seam.size()); ++k) {
+        assert(of_patches[k].ends == of_seam[k].ends);
         connect(of_patches[k].link, of_seam[k].link);
         connect(of_seam[k].link, of_patches[k].link);
     }
@@ -79,6 +82,8 @@ LinkedRefinement join(std::size_t border_count, LatticePatches patches, const Se
     Refinement& result = linked.refinement;
     result.stats = refined_seam.stats;
     const std::size_t patch_count = patches.points.size(), collar_count = seam.points.size() - seam.fixed_points;
+    assert(border_count <= seam.fixed_points && seam.shared.size() == seam.points.size() - border_count);
+    assert(collar_count <= refined_seam.steiner_points.size());
     const auto first_new = refined_seam.steiner_points.begin() + static_cast<std::ptrdiff_t>(collar_count);
     result.steiner_points = std::move(patches.points);
     const std::size_t first_of_collar = seam.fixed_points - border_count;
@@ -95,6 +100,7 @@ LinkedRefinement join(std::size_t border_count, LatticePatches patches, const Se
                 v = VertexId{v.index() - seam.points.size() + border_count + patch_count};
             else if (v.index() >= border_count)
                 v = VertexId{border_count + seam.shared[v.index() - border_count].index()};
+            assert(v.index() < border_count + result.steiner_points.size());
         }
     }
     if (patches.linked) join_links(patches, border_count, linked_seam.links, result.triangles, linked.links);

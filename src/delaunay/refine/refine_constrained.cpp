@@ -7,6 +7,7 @@
 //                                    once more, with wider room round the places that a lattice kept from being refined
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -175,6 +176,7 @@ void triangulate_seam(const SeamEdges& edges, std::span<const Index> stand_in, S
     std::vector<ValueSeed> seeds;
     for (std::size_t i = 0; i < edges.edges.size(); ++i) {
         const Link left = find_edge(tris, at_vertex, edges.edges[i].a.value, edges.edges[i].b.value);
+        assert(!left.is_border());
         seeds.push_back({left.triangle(), edges.fields[i]});
     }
     const std::vector<std::uint32_t> fields = spread_values(tris, seeds);
@@ -183,6 +185,7 @@ void triangulate_seam(const SeamEdges& edges, std::span<const Index> stand_in, S
     domain.tris = keep_selected(tris, selection);
     for (const std::uint32_t field : fields)
         if (field != no_index) domain.fields.push_back(field);
+    assert(domain.fields.size() == domain.tris.size());
 }
 
 SeamDomain make_seam(const ConstrainedInput& input, const FieldPatches& filled) {
@@ -222,6 +225,8 @@ std::vector<VertexId> number_vertices(std::size_t input_count, std::size_t verte
         else
             ids.emplace_back(lines.line_of_vertex(static_cast<Index>(v)) != no_index ? on_line++ : inside++);
     }
+    // Each number is given once, but for those of points inside patches.
+    assert(on_line == first_of_patch && inside + seam.shared.size() == vertex_count + patch_points);
     return ids;
 }
 

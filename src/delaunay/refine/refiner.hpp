@@ -12,6 +12,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -28,6 +29,7 @@
 #include "delaunay/refine/smoothing.hpp"
 #include "delaunay/refine/triangle_shape.hpp"
 #include "delaunay/triangulate/cavity.hpp"
+#include "delaunay/triangulate/conditions.hpp"
 #include "delaunay/triangulate/triangles.hpp"
 
 namespace lamina::delaunay {
@@ -494,6 +496,7 @@ private:
         const double size = stored_size;
         const Index vertex = add_vertex(p, stored_size);
         const std::size_t old_count = tris_.size();
+        assert(t < old_count && sizes_.size() == points_.size() && is_star(points_, cavity_, p));
         front_.resize(old_count + 2);
         const float* const sizes = sizes_.data();
         double size_a = sizes[cavity_.boundary[0].a];

@@ -14,6 +14,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -122,6 +123,7 @@ private:
         std::sort(outer_.begin(), outer_.end());
         for (const Index t : patch_tris_) local_triangle_[t] = no_index;
         for (const Index w : patch_vertices_) local_vertex_[w] = no_index;
+        assert(are_linked(patch.tris));
         return patch;
     }
 
@@ -279,6 +281,8 @@ private:
         }
         for (Index t = 0; t < patch.tris.size(); ++t)
             if (!patch.is_removed(t)) put_triangle_back(patch.tris[t], patch_tris_[t]);
+        assert(std::all_of(patch_tris_.begin(), patch_tris_.end(),
+                           [&](Index t) { return t == no_index || is_linked(tris_, t); }));
     }
 
     void put_vertex_back(const Patch& patch, Index local) {
@@ -365,6 +369,7 @@ private:
             tris_[place_of_triangle[t]] = tri;
         }
         tris_.resize(triangles);
+        assert(are_linked(tris_));
     }
 
     std::vector<Point>& points_;

@@ -17,6 +17,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 #include <initializer_list>
 #include <utility>
@@ -28,6 +29,7 @@
 #include "core/predicates.hpp"
 #include "delaunay/refine/triangle_shape.hpp"
 #include "delaunay/triangulate/cavity.hpp"
+#include "delaunay/triangulate/conditions.hpp"
 #include "delaunay/triangulate/triangles.hpp"
 
 namespace lamina::delaunay {
@@ -526,6 +528,7 @@ private:
             const Index n = tris_[t].n[e].triangle();
             flips_.push_back({t, n, tris_[t], tris_[n]});
             flip_edge(tris_, t, e);
+            assert(is_counter_clockwise(points_, tris_[t]) && is_counter_clockwise(points_, tris_[n]));
             if (!is_good(tris_[t], worst_ratio) || !is_good(tris_[n], worst_ratio)) {
                 undo_flips();
                 return false;
@@ -544,6 +547,7 @@ private:
                 connect(tris_, flip->t, e, flip->old_t.n[e]);
                 connect(tris_, flip->n, e, flip->old_n.n[e]);
             }
+            assert(is_linked(tris_, flip->t) && is_linked(tris_, flip->n));
         }
     }
 

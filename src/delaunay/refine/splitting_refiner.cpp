@@ -2,6 +2,7 @@
 #include "delaunay/refine/splitting_refiner.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -356,7 +357,9 @@ bool SplittingRefiner::is_unresolved(Point a, Point b) const {
 /// Splits edge e of triangle t, which is an edge of a line. Returns false, and changes nothing, if the edge is too
 /// short or rounding leaves no room for the point.
 bool SplittingRefiner::split(Index t, unsigned e) {
+    assert(e < 3 && tris_[t].n[e].is_constrained() && is_linked(tris_, t, e));
     const Index a = tris_[t].v[next(e)], b = tris_[t].v[previous(e)];
+    assert(!is_frozen(a, b) && lines_.line_of_edge(a, b) != no_index);
     if (is_too_short(points_[a], points_[b])) return false;
     const Point p = division_point(t, a, b);
     if (p == points_[a] || p == points_[b]) return false;
@@ -441,8 +444,15 @@ void SplittingRefiner::fill_and_queue(Index vertex, Index a, Index b, std::uint3
             fields_[t] = is_left ? left : right;
         }
     }
+    assert(fields_.empty() || fields_.size() == tris_.size());
     front_.resize(tris_.size());
-    for (const Index t : created) classify(t);
+    for (const Index t : created) {
+        // Both parts of a-b are constrained, or borders, as a-b was.
+        assert(is_linked(tris_, t) && is_counter_clockwise(points_, tris_[t]));
+        assert(tris_[t].v[1] != a || tris_[t].n[2].is_constrained());
+        assert(tris_[t].v[2] != b || tris_[t].n[1].is_constrained());
+        classify(t);
+    }
     for (const Index t : created) {
         queue_front(t);
         queue_edges(t);
