@@ -5,6 +5,7 @@
 #include "delaunay/constrain/constrained_pieces.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
 #include <iterator>
 #include <utility>
@@ -19,6 +20,7 @@
 #include "delaunay/pieces/leaf_brio.hpp"
 #include "delaunay/pieces/vertex_index_map.hpp"
 #include "delaunay/pieces/whole_piece.hpp"
+#include "delaunay/triangulate/conditions.hpp"
 #include "delaunay/triangulate/triangulate_points.hpp"
 
 namespace lamina::delaunay::pieces {
@@ -209,6 +211,7 @@ private:
         leaf.tris.resize(count);
         for (std::size_t t = 0; t < tris.size(); ++t) {
             if (!inside[t]) continue;
+            assert(!tris[t].is_ghost());
             Tri& copy = leaf.tris[place[t]];
             for (unsigned e = 0; e < 3; ++e) {
                 const Index a = tris[t].v[next(e)], b = tris[t].v[previous(e)];
@@ -221,6 +224,7 @@ private:
                                      n.is_constrained() && !(is_on_border(a) && is_on_border(b)));
             }
         }
+        assert(are_linked(leaf.tris));
     }
 
     std::span<const Segment> segments_;
@@ -243,6 +247,9 @@ std::vector<BorderSide> connect_sides(std::vector<BorderSide> sides, Tris& tris)
     for (std::size_t i = 0; i < sides.size(); ++i) {
         if (i + 1 < sides.size() && key(sides[i]) == key(sides[i + 1])) {
             connect(tris, sides[i].inside.triangle(), sides[i].inside.edge(), sides[i + 1].inside);
+            // The triangles lie on two sides of the edge, and there is no third one.
+            assert(is_linked(tris, sides[i].inside.triangle(), sides[i].inside.edge()));
+            assert(i + 2 == sides.size() || key(sides[i]) != key(sides[i + 2]));
             ++i;
         } else {
             hull.push_back(sides[i]);
@@ -270,8 +277,11 @@ void add_ghosts(const std::vector<BorderSide>& hull, Index first, Tris& tris) {
     std::sort(ending_at.begin(), ending_at.end());
     for (std::size_t i = 0; i < hull.size(); ++i) {
         const auto before = std::lower_bound(ending_at.begin(), ending_at.end(), std::pair{hull[i].a, Index{0}});
+        assert(before != ending_at.end() && before->first == hull[i].a);
         connect(tris, static_cast<Index>(first + i), 0, Link(before->second, 1));
     }
+    assert(tris.size() == first + hull.size());
+    assert(std::all_of(ending_at.begin(), ending_at.end(), [&](const auto& g) { return is_linked(tris, g.second); }));
 }
 
 /// Copies the triangles of the leaves one behind the other, closes them with ghosts and links all of them. `result`
@@ -300,6 +310,7 @@ void join_leaves(std::span<const ConstrainedLeaf> leaves, const std::vector<Inde
     const std::vector<BorderSide> hull = connect_sides(std::move(sides), tris);
     tris.resize(first.back() + hull.size());
     add_ghosts(hull, first.back(), tris);
+    assert(is_sphere(tris, leaf_of.size()));
 }
 
 /// Puts lists of pieces, each of which has all pieces of its segments, in the order of the segments.

@@ -3,6 +3,7 @@
 #include "delaunay/pieces/convex_hull.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <span>
 
@@ -113,6 +114,8 @@ std::size_t append_chain(std::span<const Point> points, const std::vector<Index>
             hull.pop_back();
         hull.push_back(c);
     }
+    // It goes from one end of the order by x to the other.
+    assert(hull[start] + hull.back() + std::size_t{1} == points.size());
     hull.pop_back();
     return hull.size() - start;
 }

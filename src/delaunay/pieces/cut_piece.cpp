@@ -177,7 +177,8 @@ PieceHalves partition_orders(const SortedPoints& sorted, Piece& piece, const Pla
     }
     halves.low.by_x = std::move(piece.by_x);
     halves.low.by_y = std::move(piece.by_y);
-    assert(halves.low.size() == divided.low_size);
+    assert(halves.low.size() == divided.low_size && halves.low.by_y.size() == divided.low_size);
+    assert(halves.high.size() == high_size && halves.high.by_y.size() == high_size);
     return halves;
 }
 
@@ -214,6 +215,7 @@ std::optional<PieceHalves> try_cut(const SortedPoints& sorted, Piece& piece, Axi
     halves.low.border = std::move(borders->low.edges);
     halves.high.border = std::move(borders->high.edges);
     halves.low.depth = halves.high.depth = piece.depth + 1;
+    assert(is_closed(halves.low.border) && is_closed(halves.high.border));
     return halves;
 }
 

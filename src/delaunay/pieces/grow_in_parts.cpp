@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <iterator>
 #include <numeric>
@@ -31,6 +32,7 @@
 #include "delaunay/pieces/triangle_parts.hpp"
 #include "delaunay/triangulate/arguments.hpp"
 #include "delaunay/triangulate/brio.hpp"
+#include "delaunay/triangulate/conditions.hpp"
 #include "delaunay/triangulate/growing.hpp"
 #include "delaunay/triangulate/triangulate_points.hpp"
 #include "delaunay/triangulate/walk.hpp"
@@ -103,6 +105,7 @@ public:
         core::parallel_for(parts_.size(), 1, [&](std::size_t k, std::size_t) { grow(k); });
         join();
         insert_waiting(points, order);
+        assert(is_sphere(all_.tris, vertices_.size() - 1));
         return std::move(all_.tris);
     }
 
@@ -171,6 +174,7 @@ private:
             for (const Index v : t.v) part.at_sample[v] = static_cast<Index>(part.tris.size());
             part.tris.push_back(t);
         }
+        assert(are_linked(part.tris));
     }
 
     void grow(std::size_t k) {
@@ -228,6 +232,7 @@ private:
                             [](const CavityEdge& e) { return e.outer.is_border(); }))
                 return false;
         }
+        assert(is_star(vertices_, cavity, p, growing_ghost_vertex));
         fill_cavity(part.tris, cavity, v, [&](Index t, const CavityEdge& a, const CavityEdge&) {
             if (a.a < first_) part.at_sample[a.a] = t;
         });
@@ -259,8 +264,12 @@ private:
         const auto now = [&](Index t) { return first[division_.part[t]] + division_.within(t); };
         for (Index t = 0; t < sample_.size(); ++t)
             for (unsigned e = 0; e < 3; ++e)
-                if (const Link n = sample_[t].n[e]; division_.is_border(t, n))
+                if (const Link n = sample_[t].n[e]; division_.is_border(t, n)) {
+                    assert(all_.tris[now(t)].n[e].is_border());
                     all_.tris[now(t)].n[e] = Link(now(n.triangle()), n.edge());
+                    // The later one of both has the other one's link, too.
+                    assert(n.triangle() > t || is_linked(all_.tris, now(t), e));
+                }
     }
 
     std::span<const Point> vertices_;

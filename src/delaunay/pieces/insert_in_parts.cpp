@@ -14,6 +14,7 @@
 #include "delaunay/pieces/insert_in_parts.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <iterator>
 #include <utility>
@@ -116,6 +117,7 @@ private:
             for (const Index v : block) {
                 const Index first = at_vertex_[v];
                 for (Index t = first;;) {
+                    assert(has_corner(tris_[t], v));
                     if (of_triangle_[t] < of_triangle_[at_vertex_[v]]) at_vertex_[v] = t;
                     t = tris_[t].n[next(corner_of(tris_[t], v))].triangle();
                     if (t == first) break;

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
+#include "core/random.hpp"
 #include "core/uninitialized.hpp"
 #include "delaunay/triangulate/triangles.hpp"
 
@@ -17,6 +20,13 @@ using PointOrder = core::UninitializedArray<Index>;
 struct BorderEdge {
     Index a, b;
 };
+
+/// Returns whether as many edges of a border begin as end at each vertex, by a sum of hashes. For assertions.
+inline bool is_closed(std::span<const BorderEdge> border) {
+    std::uint64_t sum = 0;
+    for (const BorderEdge& e : border) sum += core::splitmix64(e.a) - core::splitmix64(e.b);
+    return sum == 0;
+}
 
 /// A region with all points inside it and on its border. Its border edges are edges of the triangulation of the whole,
 /// so the region is triangulated without a look at anything outside.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <chrono>
 #include <iterator>
 #include <numeric>
@@ -67,6 +68,8 @@ LeafTriangles triangulate_leaf(const SortedPoints& sorted, Piece leaf) {
     auto* to = triangles.begin();
     for (std::size_t t = 0; t < inside.size(); ++t) {
         if (!inside[t]) continue;
+        // The border is closed, so the vertex at infinity is outside.
+        assert(!triangulation.tris[t].is_ghost());
         const auto& v = triangulation.tris[t].v;
         *to++ = {order[v[0] - 1], order[v[1] - 1], order[v[2] - 1]};
     }
@@ -109,6 +112,7 @@ PiecewiseTriangulation triangulate_and_join(const SortedPoints& sorted, Piece re
                                             const DecompositionOptions& options, core::BusyTimes* times) {
     PiecewiseTriangulation result;
     Leaves leaves;
+    [[maybe_unused]] const std::size_t border_edges = region.border.size();
     // Room for all triangles is made while the first cut keeps one thread busy.
     core::parallel_invoke([&] { leaves = triangulate_piece(sorted, std::move(region), options, times); },
                           [&, vertices = region.size()] {
@@ -118,6 +122,8 @@ PiecewiseTriangulation triangulate_and_join(const SortedPoints& sorted, Piece re
     result.stats = leaves.stats;
     result.first.push_back(0);
     for (const LeafTriangles& leaf : leaves.triangles) result.first.push_back(result.first.back() + leaf.size());
+    // Each triangle has three edges, and each edge inside the region belongs to two triangles.
+    assert(result.first.back() <= result.triangles.size() && (result.first.back() + border_edges) % 2 == 0);
     result.triangles.resize(result.first.back());
     core::parallel_for(leaves.triangles.size(), 1, [&](std::size_t begin, std::size_t) {
         const core::BusyTimes::Scope busy(times, triangulating);

@@ -1,6 +1,7 @@
 #include "delaunay/pieces/whole_piece.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <numeric>
 #include <utility>
 
@@ -33,6 +34,7 @@ bool is_beyond_cuts(std::span<const Point> points, const DecompositionOptions& o
 }
 
 Piece whole_region(SortedPoints& sorted, std::vector<BorderEdge> border) {
+    assert(is_closed(border) && sorted.by_y.size() == sorted.points.size());
     Piece whole;
     whole.by_x = PointOrder(sorted.points.size());
     std::iota(whole.by_x.begin(), whole.by_x.end(), Index{0});
