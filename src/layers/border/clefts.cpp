@@ -12,6 +12,7 @@
 #include "layers/border/clefts.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <optional>
 
 #include "core/angles.hpp"
@@ -47,6 +48,8 @@ public:
             width = gap;
             widest = end;
         }
+        assert(!widest ||
+               (begin_ <= widest->first && widest->first <= ray && ray < widest->last && widest->last < end_));
         return widest && !is_entered(*widest) ? widest : std::nullopt;
     }
 

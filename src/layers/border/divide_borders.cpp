@@ -6,6 +6,7 @@
 #include "layers/border/divide_borders.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -64,6 +65,7 @@ std::vector<double> EdgeDivision::division_points() const {
         sum += share;
         distance += length;
     }
+    assert(points.size() + 1 == parts_);
     return points;
 }
 
@@ -332,6 +334,7 @@ BorderDivision divide_borders(std::span<const std::vector<Point>> fronts, std::s
             points_of_front.push_back(std::move(points[i]));
         }
     }
+    assert(i == edges.size());
     return result;
 }
 

@@ -2,6 +2,7 @@
 #include "layers/border/layer_builder.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 #include "core/parallel.hpp"
@@ -35,6 +36,7 @@ public:
         } else {
             layer_.rays.resize(set_.elements());
         }
+        assert(layer_.layer_of_point.size() == layer_.points.size());
         return std::move(layer_);
     }
 
@@ -113,6 +115,7 @@ private:
                     divide_edge_behind(corner_after_ray_[i].size());
                 }
             }
+            assert(k == corners_[e].size());
             for (const WakeCore& core : rays_.cores)
                 if (core.element == e) place_base(core);
         }
@@ -163,6 +166,7 @@ private:
                     else
                         chain.push_back(first ? before.front() : before.back());
                 }
+                assert(chain.size() == core.chains[c].size());
                 k += station;
             }
         }
@@ -215,6 +219,7 @@ private:
 
     /// Returns the vertex of a front's corner.
     VertexId vertex_at(const FrontCorner& corner) const {
+        assert(corner.layers <= rays_.counts[corner.ray]);
         if (corner.after > 0) return corner_after_ray_[corner.ray][corner.after - 1];
         return corner.layers == 0 ? origin_of_ray_[corner.ray] : VertexId(first_point_[corner.ray] + corner.layers - 1);
     }

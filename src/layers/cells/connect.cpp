@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <iterator>
 #include <optional>
 #include <span>
@@ -46,6 +47,7 @@ public:
         first_leads_ = core::is_forward(from == to ? second.direction - first.direction : to - from);
         const std::uint32_t common = std::min(first.layers, second.layers);
         const std::uint32_t highest = std::max(first.layers, second.layers);
+        assert(highest - common <= 1);
         if (common == 0 && from == to) return;  // the border runs along the ray
 
         const bool divided_sides = column.up.size() > 2 || column.down.size() > 2;
@@ -116,6 +118,8 @@ public:
 
     /// Says that the cells added since the last call are part of the column with this number.
     void number_column(std::uint32_t number) {
+        assert(cells_.triangle_layer.size() == cells_.triangles.size());
+        assert(cells_.quad_layer.size() == cells_.quads.size());
         cells_.triangle_column.resize(cells_.triangles.size(), number);
         cells_.quad_column.resize(cells_.quads.size(), number);
     }
@@ -260,7 +264,9 @@ private:
             corners.push_back(at(corners_[i]));
             sides.push_back({VertexId(i), VertexId((i + 1) % corners_.size())});
         }
-        for (const Triangle& t : triangulate(corners, sides, {.keep = KeptRegion::left_of_segments}).triangles)
+        const auto inside = triangulate(corners, sides, {.keep = KeptRegion::left_of_segments});
+        assert(inside.triangles.size() + 2 == corners.size());
+        for (const Triangle& t : inside.triangles)
             cells_.triangles.push_back(
                 {{corners_[t.v[0].index()], corners_[t.v[1].index()], corners_[t.v[2].index()]}});
     }

@@ -2,6 +2,7 @@
 #include "layers/cells/fill.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
 #include <utility>
 
@@ -18,8 +19,10 @@ CellColumns::CellColumns(const Layer& layer, std::size_t element)
     border_.push_back(border_.front());
     for (const LayerCleft& cleft : layer.clefts) {
         if (cleft.element != element) continue;
+        assert(cleft.first <= cleft.corner && cleft.corner < cleft.last && cleft.last < rays_.size());
         const auto outer_edge = std::find(border_.begin(), border_.end(), cleft.outer_edge.front()) + 1;
         const auto inner_points = static_cast<std::ptrdiff_t>(cleft.outer_edge.size()) - 2;
+        assert(std::equal(cleft.outer_edge.begin() + 1, cleft.outer_edge.end(), outer_edge));
         const auto at = border_.erase(outer_edge, outer_edge + inner_points);
         std::vector<VertexId> tips;
         for (std::size_t i = cleft.first + 1; i < cleft.last; ++i) tips.push_back(rays_[i].tip());
@@ -30,6 +33,7 @@ CellColumns::CellColumns(const Layer& layer, std::size_t element)
     tip_.reserve(rays_.size() + 1);
     for (const Ray& ray : rays_) {
         while (border_[at] != ray.tip()) ++at;
+        assert(at < border_.size());
         tip_.push_back(at);
     }
     tip_.push_back(border_.size() - 1);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 
 #include "core/predicates.hpp"
@@ -31,6 +32,7 @@ double burden(double cosine) { return 1 / (1 + cosine + cosine_rounding); }
 
 bool StripCutter::cut(std::span<const VertexId> lower, std::span<const VertexId> upper, bool first_leads,
                       std::vector<Triangle>& triangles) {
+    assert(!lower.empty() && !upper.empty() && lower.size() + upper.size() >= 3);
     lower_ = lower;
     upper_ = upper;
     const double min_cosine = find_min_cosine();
@@ -41,9 +43,12 @@ bool StripCutter::cut(std::span<const VertexId> lower, std::span<const VertexId>
         const double via_upper = burden_via_upper(i, j), via_lower = burden_via_lower(i, j);
         const double slack = cosine_rounding * std::min(via_upper, via_lower);
         if (first_leads ? via_upper <= via_lower + slack : via_upper + slack < via_lower) {
+            // Cosines of triangles that are not counter-clockwise are below all others.
+            assert(j + 1 < upper.size() && state(i, j).upper_cosine >= -1);
             triangles.push_back({{lower[i], upper[j], upper[j + 1]}});
             ++j;
         } else {
+            assert(i + 1 < lower.size() && state(i, j).lower_cosine >= -1);
             triangles.push_back({{lower[i], upper[j], lower[i + 1]}});
             ++i;
         }
@@ -120,8 +125,11 @@ Quad joined(const Triangle& t, const Triangle& other, VertexId a) {
     while (has_corner(other, t.v[alone])) ++alone;
     int apex = 0;
     while (has_corner(t, other.v[apex])) ++apex;
+    assert(alone < 3 && apex < 3 && t.v[(alone + 1) % 3] == other.v[(apex + 2) % 3] &&
+           t.v[(alone + 2) % 3] == other.v[(apex + 1) % 3]);
     std::array<VertexId, 4> corners{t.v[alone], t.v[(alone + 1) % 3], other.v[apex], t.v[(alone + 2) % 3]};
     std::rotate(corners.begin(), std::find(corners.begin(), corners.end(), a), corners.end());
+    assert(corners[0] == a);
     return {{corners[0], corners[1], corners[2], corners[3]}};
 }
 
@@ -190,6 +198,7 @@ Joint best_joint(std::span<const Point> points, std::span<const Triangle> triang
                  bool first_leads) {
     const auto on_edge = std::find_if(triangles.begin(), triangles.end(),
                                       [&](const Triangle& t) { return has_corner(t, a) && has_corner(t, d); });
+    assert(on_edge != triangles.end());
     const auto k = static_cast<std::size_t>(on_edge - triangles.begin());
     const CellCut cut(points, triangles);
     const std::size_t n = triangles.size();

@@ -16,8 +16,10 @@
 #include "layers/directions/corners.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <span>
 #include <utility>
 
@@ -87,6 +89,10 @@ void leave_out_sharp_corners(double first_height, std::vector<RayVertex>& outlin
         done = after;
     }
     kept.insert(kept.end(), outline.begin() + static_cast<std::ptrdiff_t>(done), outline.end());
+    // Each vertex has a ray, or is a corner after one.
+    assert(std::accumulate(kept.begin(), kept.end(), kept.size(), [](std::size_t sum, const RayVertex& v) {
+               return sum + v.corner_after.size();
+           }) == outline.size());
     outline = std::move(kept);
 }
 

@@ -14,6 +14,7 @@
 #include "layers/wake/wake_outline.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -269,6 +270,9 @@ std::vector<RayVertex> outline_with_wake(std::span<const Point> wall, const Divi
         const WakeVertex& vertex = wake->vertices[k];
         outline.push_back({vertex.left.at, RayPlace::wake, vertex.opening, vertex.left.left});
     }
+    // Both sides of the wake, and its end, lie between the last point of the wall and the first.
+    assert(outline[outline.size() - 1 - end].place == RayPlace::wake_end);
+    assert(outline[outline.size() - 2 - 2 * end].place == RayPlace::wall && outline.front().place == RayPlace::wall);
     return outline;
 }
 
