@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cassert>
 #include <deque>
 #include <exception>
 #include <iterator>
@@ -127,16 +128,19 @@ public:
 
     static void cut_in_two(Lines& lines, const LineBorder& border, SearchResult& result, std::vector<Part>& parts) {
         auto& [from, to, vertices, interior] = *result.separator;
+        assert(interior.empty() || interior.size() == vertices);
         const std::uint32_t number = lines.add_line(vertex_of(border, from, lines), vertex_of(border, to, lines), 1);
         lines.number(number, vertices);
         if (!interior.empty()) lines.set_interior(number, std::move(interior));
         const Stretch line{number, 0, static_cast<std::uint32_t>(vertices + 1)};
         if (from.loop != to.loop) {
             parts.push_back({join(border, from, to, line), result.process});
+            assert(is_closed(parts.back().border.loops[std::min(from.loop, to.loop)], lines));
         } else {
             auto [first, second] = split(border, from.index, to.index, line);
             // The larger part stays: it is the one that the next round waits for.
             const bool first_stays = first.vertices() >= second.vertices();
+            assert(is_closed(first.loops.front(), lines) && is_closed(second.loops.front(), lines));
             parts.push_back({std::move(first), first_stays ? result.process : any_process});
             parts.push_back({std::move(second), first_stays ? any_process : result.process});
         }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <functional>
 #include <utility>
 
 namespace lamina::decoupling {
@@ -11,6 +12,7 @@ namespace {
 /// Adds the part of a loop between two of its vertices, from the one to the other; the whole loop where both are the
 /// same.
 void append_part(const LineLoop& loop, std::size_t from, std::size_t to, LineLoop& part) {
+    assert(from < loop.vertices && to < loop.vertices);
     std::size_t left = to > from ? to - from : to + loop.vertices - from;
     std::size_t i = 0;
     for (; from >= loop.stretches[i].segments(); ++i) from -= loop.stretches[i].segments();
@@ -93,6 +95,7 @@ std::vector<VertexId> ids_of(const LineLoop& loop, const Lines& lines) {
             for (std::uint32_t k = 0; k < run.count; ++k)
                 ids.push_back(VertexId{run.ascends ? run.first_id + k : run.first_id + run.count - 1 - k});
         });
+    assert(ids.size() == loop.vertices);
     return ids;
 }
 
@@ -140,21 +143,26 @@ LocalBorder localize(const LineBorder& border, Lines& lines, const SizeField& si
         }
         if (local.segments.size() > first_segment) local.segments.back().b = local.segments[first_segment].a;
     }
+    assert(local.segments.size() == vertices && local.points.size() == local.global.size());
+    assert(std::adjacent_find(local.global.begin(), local.global.end(), std::greater_equal<>()) == local.global.end());
     return local;
 }
 
 BorderHalves split(const LineBorder& border, std::size_t from, std::size_t to, const Stretch& line) {
+    assert(border.loops.size() == 1 && from != to);
     LineLoop first, second;
     first.add(line);
     append_part(border.loops.front(), to, from, first);
     second.add(reversed(line));
     append_part(border.loops.front(), from, to, second);
+    assert(first.vertices + second.vertices == border.vertices() + 2 * line.segments());
     const bool first_may_dangle = border.may_dangle && runs_both_ways(first);
     const bool second_may_dangle = border.may_dangle && runs_both_ways(second);
     return {{{std::move(first)}, first_may_dangle}, {{std::move(second)}, second_may_dangle}};
 }
 
 LineBorder join(const LineBorder& border, LoopVertex from, LoopVertex to, const Stretch& line) {
+    assert(from.loop != to.loop && from.loop < border.loops.size() && to.loop < border.loops.size());
     LineLoop joined;
     append_part(border.loops[from.loop], from.index, from.index, joined);
     joined.add(line);
@@ -164,6 +172,7 @@ LineBorder join(const LineBorder& border, LoopVertex from, LoopVertex to, const 
     result.may_dangle = true;
     result.loops[std::min(from.loop, to.loop)] = std::move(joined);
     result.loops.erase(result.loops.begin() + static_cast<std::ptrdiff_t>(std::max(from.loop, to.loop)));
+    assert(result.vertices() == border.vertices() + 2 * line.segments());
     return result;
 }
 

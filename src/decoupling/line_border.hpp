@@ -47,6 +47,17 @@ struct LoopVertex {
 /// Returns the ids of the vertices of a loop in their order.
 LAMINA_EXPORT std::vector<VertexId> ids_of(const LineLoop& loop, const Lines& lines);
 
+/// Returns whether each stretch of a loop begins where the one before it ends. For assertions.
+inline bool is_closed(const LineLoop& loop, const Lines& lines) {
+    if (loop.stretches.empty()) return false;
+    const Stretch* before = &loop.stretches.back();
+    for (const Stretch& stretch : loop.stretches) {
+        if (lines.id(before->line, before->last) != lines.id(stretch.line, stretch.first)) return false;
+        before = &stretch;
+    }
+    return true;
+}
+
 /// Returns the vertex of a border at this place.
 LineVertex vertex_of(const LineBorder& border, LoopVertex at, const Lines& lines);
 

@@ -157,6 +157,7 @@ void Lines::number_segments(std::uint32_t line, std::size_t segments) {
 }
 
 void Lines::number(std::uint32_t line, std::size_t interior) {
+    assert(line < size() && !is_loop(line) && segments(line) == 0);
     number_segments(line, interior + 1);
     vertices_ += interior;
 }

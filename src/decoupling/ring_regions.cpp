@@ -1,6 +1,7 @@
 #include "decoupling/ring_regions.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace lamina::decoupling {
 
@@ -74,6 +75,7 @@ LineBorder RingRegions::border(std::size_t trapezoid, const Lines& lines) const 
     backward(ring.first_radial + (j + 1 < ring.trapezoids ? j + 1 : 0));
     for (std::uint32_t i = ring.inner_per_trapezoid - 1; i > 0; --i) backward(first + i);
     loop.add({first, lines.segments(first), 1});
+    assert(is_closed(loop, lines));
     LineBorder border;
     border.loops.push_back(std::move(loop));
     return border;

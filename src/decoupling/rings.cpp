@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 
 #include "core/bounding_box.hpp"
@@ -220,6 +221,7 @@ std::vector<std::uint32_t> add_rings(Skeleton& skeleton, std::span<const Ring> r
     }
     for (std::size_t ring = 0; ring < rings.size(); ++ring) {
         const std::size_t n = rings[ring].per_side;
+        assert(junctions.per_side[ring] % n == 0 && junctions.per_side[ring + 1] % n == 0);
         const auto inner = static_cast<std::uint32_t>(junctions.per_side[ring] / n);
         const auto outer = static_cast<std::uint32_t>(junctions.per_side[ring + 1] / n);
         const auto trapezoids = static_cast<std::uint32_t>(sides * n);

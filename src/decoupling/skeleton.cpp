@@ -2,6 +2,7 @@
 // segments were traced, line by line, those to the left of the line before those to its right.
 #include "decoupling/skeleton.hpp"
 
+#include <cassert>
 #include <utility>
 
 #include "decoupling/separators.hpp"
@@ -81,6 +82,7 @@ LineLoop Skeleton::loop_of(std::span<const std::uint32_t> edges) const {
         }
     }
     if (!begin.forward) loop.add({begin.line, lines.segments(begin.line), 1});
+    assert(is_closed(loop, lines));
     return loop;
 }
 

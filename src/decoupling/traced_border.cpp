@@ -110,6 +110,8 @@ std::vector<std::vector<std::uint32_t>> trace_loops(std::span<const Point> point
             done[e] = 1;
             loop.push_back(e);
         }
+        // No two edges are followed by the same one, so the loop is back where it began.
+        assert(fans.following(loop.back()) == first);
     }
     return loops;
 }
