@@ -1,6 +1,7 @@
 #include "adaptation/outer_region.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <memory>
 #include <utility>
@@ -26,6 +27,7 @@ std::vector<VertexLoop> border_loops_of(const Mesh& mesh, std::span<const char> 
         if (!isotropic[edges.cell_of(e)]) continue;
         const std::uint32_t twin = adjacency.twin[e];
         if (twin != mesh::no_edge && isotropic[edges.cell_of(twin)]) continue;
+        assert(!next[edges.origin(e).index()].valid());
         next[edges.origin(e).index()] = edges.target(e);
     }
     std::vector<VertexLoop> loops;

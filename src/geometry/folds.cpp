@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -103,6 +104,7 @@ FoldMend mend_between(SourcePoints& points, std::size_t i, bool closed, std::siz
 
 /// Leaves out a point, and the next one, too, where it is the same as the one before.
 void leave_out(SourcePoints& points, std::size_t i) {
+    assert(i < points.size() && points.size() > 4);
     const auto erase = [&](std::size_t k) { points.erase(points.begin() + static_cast<std::ptrdiff_t>(k)); };
     erase(i);
     const std::size_t next = i % points.size(), before = (i + points.size() - 1) % points.size();

@@ -3,6 +3,7 @@
 #include "geometry/plain_flap.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -68,6 +69,7 @@ PartedSurface part_at_hinge(const SourcePoints& surface, const Hinge& hinge) {
     PartedSurface parts{{foot}, {foot}, length(edge)};
     parts.rear.insert(parts.rear.end(), std::make_reverse_iterator(share > 0 ? begin + 1 : begin), surface.rend());
     parts.front.insert(parts.front.end(), share < 1 ? begin + 1 : begin + 2, surface.end());
+    assert(parts.rear.size() >= 2 && parts.front.size() >= 2);
     return parts;
 }
 
@@ -130,6 +132,7 @@ void cut_at_crossing(PartedSurface& parts, const Hinge& hinge) {
     };
     cut(parts.front, last->front);
     cut(parts.rear, last->rear);
+    assert(parts.front[0].at == parts.rear[0].at && parts.front.size() >= 2 && parts.rear.size() >= 2);
 }
 
 /// Takes out the second vertex of a part where it is much nearer to the first one than to the third and hardly off the

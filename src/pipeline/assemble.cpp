@@ -1,5 +1,6 @@
 // Stage "assemble": the layer and the refined subdomains become one mesh.
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 #include <lamina/pipeline.hpp>
@@ -23,11 +24,13 @@ std::vector<Segment> take_base(const Element& element, std::span<const Point> po
     };
     const std::size_t n = wall.size(), first = edge_at(element.features.base->first);
     const std::size_t length = (edge_at(element.features.base->last) + n - first) % n;
+    assert(first < n && length > 0);
     std::vector<Segment> base, rest;
     for (std::size_t k = 0; k < length; ++k) base.push_back(wall[(first + k) % n]);
     for (std::size_t i = 0; i < n; ++i)
         if ((i + n - first) % n >= length) rest.push_back(wall[i]);
     wall = std::move(rest);
+    assert(base.size() + wall.size() == n);
     return base;
 }
 

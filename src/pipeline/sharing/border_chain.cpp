@@ -1,6 +1,7 @@
 #include "pipeline/sharing/border_chain.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <numeric>
@@ -57,6 +58,7 @@ BorderChain border_chain(const decoupling::LineBorder& border, const decoupling:
         for (std::size_t i = 0; i < loop.size(); ++i) edges.push_back({loop[i], loop[i + 1 < loop.size() ? i + 1 : 0]});
         for (const decoupling::Stretch& stretch : of_border.stretches)
             edge_lines.insert(edge_lines.end(), stretch.segments(), stretch.line);
+        assert(edges.size() == edge_lines.size());
     }
     if (!border.may_dangle) return chain;
     std::vector<Segment> sorted = edges;

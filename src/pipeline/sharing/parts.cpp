@@ -1,6 +1,7 @@
 #include "pipeline/sharing/parts.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <span>
 
 #include <fmt/format.h>
@@ -59,6 +60,7 @@ std::vector<MeshPart> parts_behind_pieces(std::span<const Point> points, const L
 }
 
 void number_in_mesh(const Subdomain& subdomain, std::size_t first_vertex, Refinement& refinement) {
+    assert(subdomain.global.size() == subdomain.points.size());
     const std::size_t shift = first_vertex - subdomain.global.size();
     for (Triangle& t : refinement.triangles)
         for (VertexId& v : t.v)
