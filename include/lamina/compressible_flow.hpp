@@ -1,4 +1,5 @@
-// Compressible flow before the mesh: without friction, with its shocks (`lamina flow --mach`, docs/reference/flow.md).
+// Compressible flow before the mesh: with its shocks and, given a Reynolds number, with turbulent boundary layers that
+// displace it (`lamina flow --mach`, docs/reference/flow.md).
 // solve_compressible_flow() of pipeline.hpp finds it on a mesh of its own.
 #pragma once
 
@@ -17,6 +18,9 @@ struct CompressibleWallPoint {
     Point at;                         ///< the vertex
     double pressure_coefficient = 0;  ///< based on the free stream's dynamic pressure
     double mach = 0;                  ///< Mach number
+    double momentum = 0;              ///< momentum thickness of the turbulent layer; without one 0, as all below
+    double displacement = 0;          ///< its displacement thickness
+    double skin_friction = 0;  ///< wall shear stress over the free stream's dynamic pressure; below 0 if separated
 };
 
 /// A shock that ends a supersonic region at a wall.
@@ -40,13 +44,18 @@ struct CompressibleElement {
     CompressibleSide lower;  ///< the side that follows the outline, counter-clockwise round the body
 };
 
-/// Steady compressible flow without friction.
+/// Steady compressible flow.
 struct CompressibleFlow {
-    double mach = 0;                            ///< Mach number of the free stream
-    double alpha_deg = 0;                       ///< its direction
-    double chord = 1;                           ///< the reference length of all coefficients, in units of the input
-    double lift = 0;                            ///< lift coefficient by the pressures on all walls
-    double drag = 0;                            ///< drag coefficient by the same: wave drag, and the mesh's error
+    double mach = 0;       ///< Mach number of the free stream
+    double alpha_deg = 0;  ///< its direction
+    double chord = 1;      ///< the reference length of all coefficients, in units of the input
+    double lift = 0;       ///< lift coefficient by the pressures on all walls
+    /// Drag coefficient: with boundary layers viscous_drag + wave_drag, without them that of the pressures on all walls,
+    /// which is wave drag and the mesh's error.
+    double drag = 0;
+    bool has_layers = false;  ///< whether boundary layers displace the flow
+    double viscous_drag = 0;  ///< drag coefficient of boundary layers and wakes, where there are any
+    double wave_drag = 0;     ///< estimate of the drag coefficient of the shocks, where there are boundary layers
     double critical_pressure_coefficient = 0;   ///< critical_pressure_coefficient()
     double largest_mach = 0;                    ///< the largest Mach number on the walls
     std::vector<CompressibleElement> elements;  ///< in the order of the geometry

@@ -108,12 +108,12 @@ std::array<double, 2> pressures_shown(const std::vector<ChartCurve>& curves) {
 }
 
 std::string compressible_table(const CompressibleFlow& flow) {
-    std::string text = "element,side,x,y,cp,mach\n";
+    std::string text = "element,side,x,y,cp,mach,momentum,displacement,skin_friction\n";
     for (const CompressibleElement& element : flow.elements)
         for (const auto& [name, side] : {std::pair("upper", &element.upper), std::pair("lower", &element.lower)})
             for (const CompressibleWallPoint& p : side->points)
-                text += fmt::format("{},{},{},{},{},{}\n", element.name, name, p.at.x, p.at.y, p.pressure_coefficient,
-                                    p.mach);
+                text += fmt::format("{},{},{},{},{},{},{},{},{}\n", element.name, name, p.at.x, p.at.y,
+                                    p.pressure_coefficient, p.mach, p.momentum, p.displacement, p.skin_friction);
     return text;
 }
 
@@ -126,15 +126,27 @@ std::string compressible_side_line(const std::string& name, const CompressibleSi
     for (const WallShock& shock : side.shocks)
         text += fmt::format(", shock at {:.3f} of the element's extent in x, ({:.4g}, {:.4g}), Mach {:.3f} to {:.3f}",
                             shock.position, shock.at.x, shock.at.y, shock.mach_ahead, shock.mach_behind);
+    const auto separated = std::find_if(side.points.begin(), side.points.end(),
+                                        [](const CompressibleWallPoint& p) { return p.skin_friction < 0; });
+    if (separated != side.points.end()) {
+        const auto attached = std::find_if(separated, side.points.end(),
+                                           [](const CompressibleWallPoint& p) { return p.skin_friction > 0; });
+        text += fmt::format(
+            ", separated from ({:.4g}, {:.4g}) {}", separated->at.x, separated->at.y,
+            attached == side.points.end() ? "on" : fmt::format("to ({:.4g}, {:.4g})", attached->at.x, attached->at.y));
+    }
     return summary_line(name, text);
 }
 
 std::string compressible_summary(const CompressibleFlow& flow) {
     std::string text = fmt::format(
-        "compressible flow at Mach {:.4g} and {} degrees, without friction: lift coefficient {:.4f}, drag coefficient "
-        "of "
-        "the shocks {:.4f}, based on the chord {:.6g}\n",
-        flow.mach, flow.alpha_deg, flow.lift, flow.drag, flow.chord);
+        "compressible flow at Mach {:.4g} and {} degrees, with{} boundary layers: lift "
+        "coefficient {:.4f}, drag coefficient {:.4f}",
+        flow.mach, flow.alpha_deg, flow.has_layers ? "" : "out", flow.lift, flow.drag);
+    text += flow.has_layers ? fmt::format(", {:.4f} of them of boundary layers and {:.4f} of shocks", flow.viscous_drag,
+                                          flow.wave_drag)
+                            : std::string(" of shocks");
+    text += fmt::format(", based on the chord {:.6g}\n", flow.chord);
     text += fmt::format("largest Mach number {:.4g}; sonic pressure coefficient cp* {:.4g}\n", flow.largest_mach,
                         flow.critical_pressure_coefficient);
     for (const CompressibleElement& element : flow.elements)
@@ -144,7 +156,8 @@ std::string compressible_summary(const CompressibleFlow& flow) {
         std::any_of(flow.elements.begin(), flow.elements.end(), [](const CompressibleElement& element) {
             return !element.upper.shocks.empty() || !element.lower.shocks.empty();
         });
-    if (has_shock) text += "without boundary layers shocks lie too far back, on RAE 2822 by 6 to 9 % of the chord\n";
+    if (has_shock && !flow.has_layers && flow.mach < 1)
+        text += "without boundary layers shocks lie too far back, on RAE 2822 by 6 to 9 % of the chord\n";
     if (!flow.converged)
         text += fmt::format("the flow is not steady after {} steps: the numbers are rough\n", flow.iterations);
     return text;
@@ -189,8 +202,8 @@ FlowText text_of(const CompressibleFlow& flow) {
     return {compressible_table(flow), compressible_summary(flow), std::move(curves), {low, high}};
 }
 
-/// Solves the flow that the conditions ask for: without friction and with shocks where it is faster than sound, else
-/// potential flow with boundary layers, whose pressures are those of compressible flow where there is a Mach number.
+/// Solves the flow that the conditions ask for: compressible flow with shocks where it is faster than sound, else potential
+/// flow with boundary layers, whose pressures are those of compressible flow where there is a Mach number.
 FlowText solve(const Geometry& given, const Geometry& prepared, const FlowConditions& conditions, bool has_layers) {
     const Flow flow = solve_flow(prepared, conditions);
     if (is_beyond_critical(flow, conditions)) return text_of(solve_compressible_flow(given, conditions));
@@ -247,8 +260,8 @@ void add_flow_command(CLI::App& app) {
         add_table_option(*command, option_table<FlowConditions>(), name, arguments->conditions[name]);
     command
         ->add_option("-o,--output", arguments->table,
-                     "CSV file to write: speed, pressure and boundary layer along each side, or pressure "
-                     "and Mach number where it is faster than sound; - for standard output")
+                     "CSV file to write: speed, pressure and boundary layer along each side, or pressure, "
+                     "Mach number and boundary layer where it is faster than sound; - for standard output")
         ->type_name("FILE");
     command
         ->add_option("--picture", arguments->picture,

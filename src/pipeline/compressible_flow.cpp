@@ -75,6 +75,16 @@ EulerMesh euler_mesh(const MeshResult& made) {
     return mesh;
 }
 
+/// Puts the drag together where there are boundary layers.
+void add_drag(const EulerSolution& solution, CompressibleFlow& found) {
+    found.viscous_drag = flow::euler::viscous_drag(solution);
+    for (const CompressibleElement& element : found.elements)
+        for (const CompressibleSide* side : {&element.upper, &element.lower})
+            for (const WallShock& shock : side->shocks)
+                found.wave_drag += flow::euler::wave_drag(*side, shock, found.mach, found.chord);
+    found.drag = found.viscous_drag + found.wave_drag;
+}
+
 CompressibleFlow flow_of(const MeshResult& made, const EulerMesh& mesh, const EulerSolution& solution,
                          const EulerOptions& options) {
     CompressibleFlow flow;
@@ -85,6 +95,8 @@ CompressibleFlow flow_of(const MeshResult& made, const EulerMesh& mesh, const Eu
     flow.drag = solution.drag;
     flow.critical_pressure_coefficient = critical_pressure_coefficient(options.mach);
     flow.elements = wall_flows(mesh, solution, options);
+    flow.has_layers = !solution.layers.empty();
+    if (flow.has_layers) add_drag(solution, flow);
     flow.iterations = solution.iterations;
     flow.residual = solution.residual;
     flow.converged = solution.converged;
@@ -121,7 +133,12 @@ CompressibleFlow solve_compressible_flow(const Geometry& geometry, const FlowCon
     const ReferenceConditions reference = reference_conditions(conditions, reference_box(geometry));
     MeshResult made = generate_mesh(geometry, options_of_mesh(conditions));
     const EulerMesh mesh = euler_mesh(made);
-    const EulerOptions options{.mach = *conditions.mach, .alpha_deg = reference.alpha_deg, .chord = reference.chord};
+    // Layers hardly move the shocks of supersonic flow.
+    const bool has_layers = *conditions.mach < 1 && !is_laminar(reference);
+    const EulerOptions options{.mach = *conditions.mach,
+                               .alpha_deg = reference.alpha_deg,
+                               .chord = reference.chord,
+                               .reynolds = has_layers ? reference.reynolds : std::nullopt};
     const EulerSolution solution = solve_euler(mesh, options);
     CompressibleFlow flow = flow_of(made, mesh, solution, options);
     flow.points = std::move(made.mesh.points);

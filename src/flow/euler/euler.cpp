@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include <lamina/error.hpp>
 
 #include "core/reproducible_math.hpp"
 #include "flow/euler/block_system.hpp"
+#include "flow/euler/displacement.hpp"
 #include "flow/euler/dual_mesh.hpp"
 #include "flow/euler/residual.hpp"
 
@@ -51,6 +53,7 @@ struct Iteration {
     ResidualMemory memory{};
     BlockSystem system{};
     std::vector<std::array<float, 4>> changes{};
+    std::optional<DisplacementLayers> layers{};
 };
 
 Iteration begin(const EulerMesh& mesh, const EulerOptions& options) {
@@ -104,6 +107,7 @@ double step(Iteration& flow, const EulerOptions& options, int order, double& cfl
     constexpr double share_of_halved = 0.005;  // vertices with halved changes that make time steps smaller
     const std::size_t vertices = flow.mesh.points.size();
     residual(flow.mesh, flow.states, flow.far, order, flow.memory, flow.sums);
+    if (flow.layers) flow.layers->add_fluxes(flow.states, flow.sums);
     wave_sums(flow.mesh, flow.states, flow.waves);
     double squares = 0;
     for (std::size_t v = 0; v < vertices; ++v) {
@@ -161,11 +165,8 @@ EulerSolution solution_of(const Iteration& flow) {
     return solution;
 }
 
-}  // namespace
-
-EulerSolution solve_euler(const EulerMesh& mesh, const EulerOptions& options) {
-    if (!(options.mach > 0 && options.mach <= largest_mach))
-        throw OptionError("mach", "must be above 0 and at most 10 for a flow without friction");
+/// Makes steps until the flow is steady, but at most as many as the options say.
+EulerSolution iterate(const EulerMesh& mesh, const EulerOptions& options) {
     Iteration flow = begin(mesh, options);
     // Without walls nothing changes but for rounding errors.
     constexpr double least_residual = 1e-14;
@@ -175,18 +176,35 @@ EulerSolution solve_euler(const EulerMesh& mesh, const EulerOptions& options) {
     bool converged = false;
     while (!converged && iterations < options.max_iterations) {
         const bool begins = iterations < options.first_order_iterations;
+        if (!begins && options.reynolds && !flow.layers) flow.layers.emplace(mesh, flow.mesh, options, flow.states);
+        if (flow.layers) flow.layers->update(flow.states);
         now = step(flow, options, begins ? 1 : 2, cfl);
+        if (!std::isfinite(now)) break;
         if (++iterations == 1) first = std::max(now, least_residual);
         if (begins) continue;
         history.add(flow.lift, flow.drag);
         converged = now < options.tolerance * first ||
                     (history.settled(options.settled) && now < options.settled_residual * first);
     }
+    if (flow.layers && std::isfinite(now)) converged = converged || history.settled(options.nearly_settled);
     EulerSolution solution = solution_of(flow);
+    if (flow.layers) solution.layers = flow.layers->walls();
     solution.residual = now / first;
     solution.iterations = iterations;
     solution.converged = converged;
     return solution;
+}
+
+}  // namespace
+
+EulerSolution solve_euler(const EulerMesh& mesh, const EulerOptions& options) {
+    if (!(options.mach > 0 && options.mach <= largest_mach))
+        throw OptionError("mach", "must be above 0 and at most 10 for a flow without friction");
+    EulerSolution solution = iterate(mesh, options);
+    if (solution.converged || !options.reynolds) return solution;
+    EulerOptions without_layers = options;
+    without_layers.reynolds.reset();
+    return iterate(mesh, without_layers);
 }
 
 double mach_at(const EulerSolution& solution, std::size_t vertex) {

@@ -1,9 +1,11 @@
-// Steady compressible flow without friction on a given triangulation. Vertex-centred finite volumes on the median dual,
-// HLLC fluxes, second order with the limiter of van Albada; implicit steps by symmetric Gauss-Seidel in a fixed order.
-// It only adds, multiplies, divides and takes roots, on one thread, so that every machine has the same bits.
+// Steady compressible flow on a given triangulation. Vertex-centred finite volumes on the median dual, HLLC fluxes,
+// second order with the limiter of van Albada; implicit steps by symmetric Gauss-Seidel in a fixed order. Boundary
+// layers and wakes may displace it. It only adds, multiplies, divides, takes roots and calls reproducible functions,
+// on one thread, so that every machine has the same bits.
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,8 +21,8 @@ inline constexpr double largest_mach = 10;
 struct EulerWall {
     /// Vertices, counter-clockwise, from the trailing edge, or from the upper corner of its base, on.
     std::vector<VertexId> outline;
-    /// Index of the lower corner of the base, from which the base leads back to the first vertex; the number of vertices
-    /// where the trailing edge is sharp.
+    /// Index of the lower corner of the base, from which the base leads back to the first vertex; the number of
+    /// vertices where the trailing edge is sharp.
     std::size_t sides_end = 0;
 };
 
@@ -34,21 +36,42 @@ struct EulerMesh {
 
 /// Options of solve_euler().
 struct EulerOptions {
-    double mach = 0;                  ///< Mach number of the free stream
-    double alpha_deg = 0;             ///< angle at which it rises
-    double chord = 1;                 ///< reference length of the coefficients
-    int max_iterations = 150;         ///< most steps
-    int first_order_iterations = 20;  ///< steps of first order at the beginning
-    int sweeps = 8;                   ///< symmetric sweeps per step
-    double first_cfl = 2;             ///< time step at the beginning, in those of explicit steps
-    double cfl_growth = 1.5;          ///< its growth from step to step
-    double max_cfl = 1000;            ///< where the growth ends below Mach 1
-    double max_supersonic_cfl = 50;   ///< the same from Mach 1 on: longer steps swing at bow shocks
-    double tolerance = 1e-6;          ///< residual over the first one with which the flow is steady
-    /// The flow is also steady once lift and drag have changed over some steps by less than this share, and the residual
-    /// has fallen to `settled_residual` of the first one.
+    double mach = 0;                   ///< Mach number of the free stream
+    double alpha_deg = 0;              ///< angle at which it rises
+    double chord = 1;                  ///< reference length of the coefficients
+    std::optional<double> reynolds{};  ///< Reynolds number of the chord, with which turbulent layers displace the flow
+    int max_iterations = 150;          ///< most steps
+    int first_order_iterations = 20;   ///< steps of first order at the beginning
+    int sweeps = 8;                    ///< symmetric sweeps per step
+    double first_cfl = 2;              ///< time step at the beginning, in those of explicit steps
+    double cfl_growth = 1.5;           ///< its growth from step to step
+    double max_cfl = 1000;             ///< where the growth ends below Mach 1
+    double max_supersonic_cfl = 50;    ///< the same from Mach 1 on: longer steps swing at bow shocks
+    double tolerance = 1e-6;           ///< residual over the first one with which the flow is steady
+    /// The flow is also steady once lift and drag have changed over some steps by less than this share, and the
+    /// residual has fallen to `settled_residual` of the first one.
     double settled = 2e-3;
     double settled_residual = 0.01;  ///< see `settled`
+    /// The share that will do after the last step with boundary layers, whose shocks may go on trembling.
+    double nearly_settled = 0.02;
+};
+
+/// The turbulent layer at one place of a wall. All numbers are 0 where it is laminar.
+struct WallLayer {
+    double momentum = 0;  ///< momentum thickness, in chords
+    double shape = 0;     ///< displacement thickness over momentum thickness
+    /// Wall shear stress over the free stream's dynamic pressure; negative where the flow is separated.
+    double friction = 0;
+};
+
+/// The layers of one body.
+struct WallLayers {
+    /// Per vertex of EulerWall::outline, and one more for the trailing edge as the end of the lower side.
+    std::vector<WallLayer> layers;
+    double wake_momentum = 0;  ///< momentum thickness of the wake at its end, in chords
+    double wake_shape = 0;     ///< ShearLayer::shape there
+    double wake_speed = 0;     ///< speed at its edge over that of the free stream
+    double wake_density = 0;   ///< density over that of the free stream
 };
 
 /// Steady flow. The units are the density and the speed of sound of the free stream, whose pressure is 1 / 1.4.
@@ -58,14 +81,17 @@ struct EulerSolution {
     std::vector<double> pressures;  ///< per vertex
     double lift = 0;                ///< lift coefficient of the pressures on all walls
     double drag = 0;                ///< drag coefficient: that of shocks, and of the mesh's error
-    double residual = 0;            ///< root mean square of the residuals of the density, over the first one
-    int iterations = 0;             ///< number of steps
-    bool converged = false;         ///< whether the flow is steady
+    /// Per wall; empty where no Reynolds number was given, and where flow and layers did not become steady together.
+    std::vector<WallLayers> layers;
+    double residual = 0;     ///< root mean square of the residuals of the density, over the first one
+    int iterations = 0;      ///< number of steps
+    bool converged = false;  ///< whether the flow is steady
 };
 
-/// Returns the steady flow. Where it does not become steady, EulerSolution::converged is false, and the numbers are those
-/// of the last step, all finite. Throws OptionError where the Mach number is not positive or above `largest_mach`, and MeshError where
-/// vertices do not hang together.
+/// Returns the steady flow. With a Reynolds number turbulent boundary layers and wakes displace it; where that does not
+/// become steady it is found without them. Where it does not become steady, EulerSolution::converged is false, and the
+/// numbers are those of the last step, all finite. Throws OptionError where the Mach number is not positive or above
+/// `largest_mach`, and MeshError where vertices do not hang together.
 EulerSolution solve_euler(const EulerMesh& mesh, const EulerOptions& options);
 
 /// Returns the Mach number at a vertex.

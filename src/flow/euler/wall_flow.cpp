@@ -1,33 +1,16 @@
 #include "flow/euler/wall_flow.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <iterator>
 
+#include "core/reproducible_math.hpp"
 #include "flow/euler/gas.hpp"
 
 namespace lamina::flow::euler {
 
 namespace {
-
-/// Returns the index in the outline at which the sides begin.
-std::size_t find_stagnation(const EulerMesh& mesh, const EulerWall& wall, const EulerSolution& solution) {
-    const std::size_t end = std::min(wall.sides_end, wall.outline.size() - 1);
-    const auto pressure = [&](std::size_t k) { return solution.pressures[wall.outline[k].index()]; };
-    // The speed along the outline at its vertex k, which is counted in the direction of the outline.
-    const auto along = [&](std::size_t k) {
-        const Point chord =
-            mesh.points[wall.outline[(k + 1) % wall.outline.size()].index()] - mesh.points[wall.outline[k - 1].index()];
-        return dot(solution.velocities[wall.outline[k].index()], chord);
-    };
-    std::size_t highest = 1, parting = 0;
-    for (std::size_t k = 1; k < end; ++k) {
-        if (pressure(k) > pressure(highest)) highest = k;
-        if (k + 1 == end || along(k) > 0 || along(k + 1) < 0) continue;
-        const std::size_t next = pressure(k) > pressure(k + 1) ? k : k + 1;
-        if (parting == 0 || pressure(next) > pressure(parting)) parting = next;
-    }
-    return parting == 0 ? highest : parting;
-}
 
 /// Returns the smallest Mach number from point k on over a distance along a side.
 double slowest_within(const std::vector<CompressibleWallPoint>& side, std::size_t k, double reach) {
@@ -52,6 +35,22 @@ double fastest_before(const std::vector<CompressibleWallPoint>& side, std::size_
 }
 
 }  // namespace
+
+std::size_t find_stagnation(std::span<const WallState> outline, std::size_t sides_end) {
+    const std::size_t end = std::min(sides_end, outline.size() - 1);
+    // The speed along the outline at its vertex k, which is counted in the direction of the outline.
+    const auto along = [&](std::size_t k) {
+        return dot(outline[k].velocity, outline[(k + 1) % outline.size()].at - outline[k - 1].at);
+    };
+    std::size_t highest = 1, parting = 0;
+    for (std::size_t k = 1; k < end; ++k) {
+        if (outline[k].pressure > outline[highest].pressure) highest = k;
+        if (k + 1 == end || along(k) > 0 || along(k + 1) < 0) continue;
+        const std::size_t next = outline[k].pressure > outline[k + 1].pressure ? k : k + 1;
+        if (parting == 0 || outline[next].pressure > outline[parting].pressure) parting = next;
+    }
+    return parting == 0 ? highest : parting;
+}
 
 std::vector<WallShock> find_shocks(const std::vector<CompressibleWallPoint>& side, double from, double extent) {
     constexpr double least_mach = 1.05;  // ahead of a shock
@@ -79,22 +78,62 @@ std::vector<CompressibleElement> wall_flows(const EulerMesh& mesh, const EulerSo
                                             const EulerOptions& options) {
     std::vector<CompressibleElement> flows;
     const double dynamic = 0.5 * options.mach * options.mach;
-    for (const EulerWall& wall : mesh.walls) {
+    for (std::size_t w = 0; w < mesh.walls.size(); ++w) {
+        const EulerWall& wall = mesh.walls[w];
         Box box;
-        for (const VertexId v : wall.outline) box.include(mesh.points[v.index()]);
+        std::vector<WallState> states;
+        for (const VertexId v : wall.outline) {
+            box.include(mesh.points[v.index()]);
+            states.push_back({mesh.points[v.index()], solution.velocities[v.index()], solution.pressures[v.index()]});
+        }
         const auto point = [&](std::size_t k) {
             const std::size_t v = wall.outline[k % wall.outline.size()].index();
-            return CompressibleWallPoint{mesh.points[v], (solution.pressures[v] - 1 / heat_ratio) / dynamic,
-                                         mach_at(solution, v)};
+            CompressibleWallPoint p{mesh.points[v], (solution.pressures[v] - 1 / heat_ratio) / dynamic,
+                                    mach_at(solution, v)};
+            if (!solution.layers.empty()) {
+                const WallLayer& layer = solution.layers[w].layers[k];
+                p.momentum = layer.momentum * options.chord;
+                p.displacement = layer.shape * p.momentum;
+                p.skin_friction = layer.friction;
+            }
+            return p;
         };
         CompressibleElement& element = flows.emplace_back();
-        const std::size_t stagnation = find_stagnation(mesh, wall, solution);
+        const std::size_t stagnation = find_stagnation(states, wall.sides_end);
         for (std::size_t k = stagnation + 1; k-- > 0;) element.upper.points.push_back(point(k));
         for (std::size_t k = stagnation; k <= wall.sides_end; ++k) element.lower.points.push_back(point(k));
         for (CompressibleSide* side : {&element.upper, &element.lower})
             side->shocks = find_shocks(side->points, box.lower.x, box.width());
     }
     return flows;
+}
+
+double viscous_drag(const EulerSolution& solution) {
+    double drag = 0;
+    for (const WallLayers& wall : solution.layers)
+        drag += 2 * wall.wake_momentum * wall.wake_density *
+                core::pow_reproducible(wall.wake_speed, 0.5 * (wall.wake_shape + 5));
+    return drag;
+}
+
+double wave_drag(const CompressibleSide& side, const WallShock& shock, double mach, double chord) {
+    constexpr double reach = 0.1,  // chords from the shock between which the mean curvature is taken
+        least_curvature = 0.1;     // where walls are flat the shock ends for other reasons
+    const auto nearest = [&](Point p) {
+        return std::min_element(side.points.begin(), side.points.end(), [&](const auto& a, const auto& b) {
+            return squared_length(a.at - p) < squared_length(b.at - p);
+        });
+    };
+    const auto foot = nearest(shock.at);
+    auto first = foot, last = foot;
+    while (first != side.points.begin() && distance(first->at, foot->at) < reach * chord) --first;
+    while (std::next(last) != side.points.end() && distance(last->at, foot->at) < reach * chord) ++last;
+    // The circle through three points.
+    const Point a = foot->at - first->at, b = last->at - foot->at, c = last->at - first->at;
+    const double curvature = 2 * std::abs(cross(a, b)) / (length(a) * length(b) * length(c)) * chord;
+    const double m = std::min(shock.mach_ahead, 2.0), speed = (1 + 0.2 * mach * mach) / mach, over = (m - 1) * (m - 1);
+    return 0.243 / std::max(curvature, least_curvature) * speed * speed * speed * over * over * (2 - m) /
+           (m * (1 + 0.2 * m * m));
 }
 
 }  // namespace lamina::flow::euler
