@@ -49,8 +49,8 @@ LAMINA_EXPORT const std::vector<std::pair<std::string, FlowSolver>>& flow_solver
 inline constexpr double default_case_mach = 0.15;
 
 /// Returns the half-width of the far field, in chords, that suits the conditions that the solver has for it at a Mach
-/// number. OpenFOAM's far field carries the vortex of the lift; SU2's is a uniform stream. What is behind shocks of supersonic
-/// flow reaches no far.
+/// number. OpenFOAM's far field carries the vortex of the lift; SU2's is a uniform stream. What is behind shocks of
+/// supersonic flow reaches no far.
 LAMINA_EXPORT double far_field_for(FlowSolver solver, double mach = default_case_mach);
 
 /// The flow that a case computes, and what its coefficients count. Lengths are in units of the mesh.
@@ -70,8 +70,8 @@ struct SolverCaseFile {
 
 /// Returns the files of a case without the mesh. They do not depend on the machine. Walls of the mesh are its markers
 /// of the kind wall, and its far field is all markers of that kind. Throws OptionError where the Reynolds number is
-/// missing, or the Mach number of a compressible flow is missing or out of range, MeshError where the mesh has no wall or
-/// no far field, and UsageError for SU2 where most cells of the layer are triangles: with the scheme of its case SU2
+/// missing, or the Mach number of a compressible flow is missing or out of range, MeshError where the mesh has no wall
+/// or no far field, and UsageError for SU2 where most cells of the layer are triangles: with the scheme of its case SU2
 /// diverges on them or finds a negative drag.
 LAMINA_EXPORT std::vector<SolverCaseFile> solver_case_files(FlowSolver solver, const Mesh& mesh,
                                                             const SolverConditions& conditions,
@@ -81,10 +81,13 @@ LAMINA_EXPORT std::vector<SolverCaseFile> solver_case_files(FlowSolver solver, c
 /// them within 35 iterations. For SU2 there is no such case at all (solver_case_files()).
 LAMINA_EXPORT std::vector<Warning> find_solver_warnings(FlowSolver solver, const Mesh& mesh);
 
-/// Returns WarningCode::unsuited_speed where the settings of a case are not made for this Mach number: above 0.5, and
-/// where the flow is expected to be supersonic along more than 0.05 chords of the walls, by the pressures of the
-/// incompressible flow before the mesh (null where there is none) and Karman and Tsien's rule.
-LAMINA_EXPORT std::vector<Warning> find_speed_warnings(FlowSolver solver, double mach, const Flow* flow);
+/// Returns WarningCode::unsuited_speed where a case or its mesh is not made for this Mach number. For OpenFOAM that is
+/// above 0.5, and where the flow is expected to be supersonic along more than 0.05 chords of the walls, by the
+/// pressures of the incompressible flow before the mesh (null where there is none) and Karman and Tsien's rule. SU2's
+/// settings are made for all Mach numbers: there it is where sizes follow no shocks (FlowDecisions::knows_shocks) that
+/// are expected, or a free stream that is supersonic, whose bow shocks they leave out.
+LAMINA_EXPORT std::vector<Warning> find_speed_warnings(FlowSolver solver, double mach, const Flow* flow,
+                                                       bool knows_shocks);
 
 /// Returns the names of all files of a case in this folder. The first is the mesh, or the folder that it is in.
 LAMINA_EXPORT std::vector<std::filesystem::path> solver_case_outputs(FlowSolver solver,

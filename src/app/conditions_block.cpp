@@ -33,8 +33,11 @@ const char* wake_source(const FlowWake& wake) {
 }
 constexpr const char* spacing_source =
     "change of the pressure coefficient of the panel method, or first height at the corners of a base";
-constexpr const char* shock_source =
-    "compressible flow without friction, whose shock is moved forward by 0.04 chords for the boundary layer";
+const char* shock_source(const FlowShock& shock) {
+    return shock.has_layers ? "compressible flow with boundary layers"
+                            : "compressible flow without friction, whose shock is moved forward by 0.04 chords for the "
+                              "boundary layer";
+}
 
 /// A length in force.
 struct LengthFact {
@@ -155,7 +158,7 @@ std::string shocks_summary(const MeshResult& result) {
             summary_line("shock", fmt::format("on {}, expected at ({:.4g}, {:.4g}), Mach {:.3g} ahead of it, {:.2g} "
                                               "chords high ({})",
                                               shock.element, shock.at.x, shock.at.y, shock.mach_ahead,
-                                              shock.height / result.conditions.chord, shock_source));
+                                              shock.height / result.conditions.chord, shock_source(shock)));
     return text;
 }
 
@@ -212,7 +215,7 @@ Json conditions_report(const MeshCase& mesh_case, const MeshResult& result) {
                                     {"at", {shock.at.x, shock.at.y}},
                                     {"mach_ahead", shock.mach_ahead},
                                     {"height", both_units(shock.height, chord)},
-                                    {"source", shock_source}});
+                                    {"source", shock_source(shock)}});
     return report;
 }
 

@@ -63,6 +63,7 @@ void add_shocks(const Geometry& geometry, const FlowConditions& conditions, doub
     guidance.spacings.insert(guidance.spacings.end(), sizes.spacings.begin(), sizes.spacings.end());
     guidance.sources = std::move(sizes.sources);
     guidance.shocks = std::move(sizes.shocks);
+    guidance.knows_shocks = sizes.knows_shocks;
 }
 
 }  // namespace
@@ -117,7 +118,8 @@ std::vector<FlowSpacing> smallest_spacings(std::span<const WallSpacing> spacings
 
 FlowGuidance guide_by_flow(const Geometry& geometry, const FlowConditions& flow_conditions, const LayerOptions& options,
                            const ReferenceConditions& conditions, LayerGrowth& growth) {
-    FlowGuidance guidance{solve_flow(geometry, flow_conditions), {}, {}, {}, {}};
+    FlowGuidance guidance;
+    guidance.flow = solve_flow(geometry, flow_conditions);
     const Flow& flow = *guidance.flow;
     if (!flow.estimated) guidance.wakes = wakes_of_flow(flow, growth.fineness);
     if (options.enabled) {

@@ -58,6 +58,7 @@ struct FlowGuidance {
     std::vector<WallSpacing> spacings;
     std::vector<SizeSource> sources;  ///< along shocks
     std::vector<FlowShock> shocks;    ///< beyond the critical Mach number
+    bool knows_shocks = false;        ///< FlowDecisions::knows_shocks
 };
 
 /// Solves the flow round these bodies. Its first heights for the y+ of the options, its least heights and wakes go to `growth`.

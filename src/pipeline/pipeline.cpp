@@ -120,6 +120,7 @@ MadeMesh run(const Geometry& given, CaseOptions options, MeshDriver& driver, Sta
     result.flow = std::move(guidance.flow);
     result.decisions = flow_decisions(growth, guidance.spacings, fitted, options.sizing);
     result.decisions.shocks = std::move(guidance.shocks);
+    result.decisions.knows_shocks = guidance.knows_shocks;
     result.seconds = clock.seconds();
     return made;
 }

@@ -13,17 +13,18 @@ struct ShockSizes {
     std::vector<WallSpacing> spacings;
     std::vector<SizeSource> sources;
     std::vector<FlowShock> shocks;
+    bool knows_shocks = false;  ///< whether the flow is steady
 };
 
-/// Returns the front of a shock from the wall up to where the flow ahead of it is hardly faster than sound: points on the
-/// line along which the Mach number is 1 behind it.
+/// Returns the front of a shock from the wall up to where the flow ahead of it is hardly faster than sound: points on
+/// the line along which the Mach number is 1 behind it.
 std::vector<Point> trace_front(const CompressibleFlow& flow, const CompressibleSide& side, const WallShock& shock);
 
 /// Returns fine spacings from ahead of the first shock of each side to the trailing edge, and sources along the fronts.
 /// Both are divided by `fineness`, as CaseOptions::fineness says. Nothing where the flow is not steady.
 ///
-/// Shocks count as further upstream than they are without boundary layers. On RAE 2822 the lift gains 77 to 90 % of what a
-/// mesh that is twice as fine everywhere gains.
+/// Shocks of flow without boundary layers count as further upstream than they are. On RAE 2822 the lift gains 77 to 90
+/// % of what a mesh that is twice as fine everywhere gains.
 ShockSizes sizes_at_shocks(const CompressibleFlow& flow, double fineness);
 
 }  // namespace lamina::pipeline

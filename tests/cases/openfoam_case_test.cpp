@@ -214,9 +214,9 @@ Flow flow_of_section(double alpha_deg) {
 }
 
 TEST(SolverCase, WarnsOfSpeedsThatItsSettingsAreNotMadeFor) {
-    const auto warned = [](double mach, double alpha_deg) {
+    const auto warned = [](double mach, double alpha_deg, bool knows_shocks = false) {
         const Flow flow = flow_of_section(alpha_deg);
-        const auto warnings = find_speed_warnings(FlowSolver::su2, mach, &flow);
+        const auto warnings = find_speed_warnings(FlowSolver::su2, mach, &flow, knows_shocks);
         EXPECT_TRUE(warnings.empty() || warnings[0].code == WarningCode::unsuited_speed);
         return !warnings.empty();
     };
@@ -224,13 +224,14 @@ TEST(SolverCase, WarnsOfSpeedsThatItsSettingsAreNotMadeFor) {
     for (const double alpha_deg : {0.0, 4.0, 10.0, 15.0}) {
         EXPECT_FALSE(warned(0.15, alpha_deg)) << alpha_deg;
         EXPECT_TRUE(warned(0.7, alpha_deg)) << alpha_deg;
+        EXPECT_FALSE(warned(0.7, alpha_deg, true)) << alpha_deg;
         EXPECT_TRUE(warned(2, alpha_deg)) << alpha_deg;
     }
     EXPECT_FALSE(warned(0.3, 10));
     EXPECT_TRUE(warned(0.45, 10));
     EXPECT_FALSE(warned(0.45, 0));
-    EXPECT_TRUE(find_speed_warnings(FlowSolver::openfoam, 0.3, nullptr).empty());
-    EXPECT_EQ(find_speed_warnings(FlowSolver::openfoam, 0.7, nullptr).size(), 1u);
+    EXPECT_TRUE(find_speed_warnings(FlowSolver::openfoam, 0.3, nullptr, false).empty());
+    EXPECT_EQ(find_speed_warnings(FlowSolver::openfoam, 0.7, nullptr, true).size(), 1u);
 }
 
 TEST(SolverCase, WarnsOfThinTriangles) {
