@@ -19,6 +19,7 @@
 #include "delaunay/pieces/convex_hull.hpp"
 #include "delaunay/pieces/pieces.hpp"
 #include "delaunay/triangulate/triangulate_points.hpp"
+#include "layers/layer.hpp"
 #include "paired.hpp"
 #include "support/triangulation_families.hpp"
 
@@ -50,7 +51,7 @@ Region naca_layer(std::size_t n) {
     options.layers = 30;
     Geometry geometry;
     geometry.elements.push_back(naca_airfoil("0012", n / 32));
-    Layer layer = make_layer(geometry, options);
+    layers::Layer layer = layers::make_layer(geometry, options);
     return {std::move(layer.points), std::move(layer.edges.region)};
 }
 

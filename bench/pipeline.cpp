@@ -5,7 +5,12 @@
 #include <benchmark/benchmark.h>
 
 #include <lamina/pipeline.hpp>
+
+#include "decoupling/subdomain.hpp"
+#include "layers/layer.hpp"
 #include "paired.hpp"
+#include "pipeline/derived_options.hpp"
+#include "sizing/requests.hpp"
 #include "thesis_case.hpp"
 
 namespace lamina::bench {
@@ -28,12 +33,14 @@ BENCHMARK(naca0012)->ArgName("threads")->Arg(1)->Arg(2)->Arg(4)->Unit(benchmark:
 /// divides them.
 Work triangle_outside_the_layer(const CaseOptions& options) {
     const std::vector<std::string> input{"naca:0012"};
-    const LayerGrowth growth = layer_growth(options.layer, {});
-    const Geometry geometry = prepare_surfaces(read_geometry(input), options.surface, spacing_limits(options, growth));
-    const FarField far_field = place_far_field(bounding_box(geometry), 1, options.far_field);
-    const Layer layer = make_layer(geometry, options.layer, growth, border_options(options, 1, {}));
-    const SizeField field = make_size_field(border_loops(layer), {}, options.sizing, 1, far_field.box());
-    const Decoupling outer = decouple(layer.points, layer.borders, field, far_field);
+    const layers::LayerGrowth growth = layers::layer_growth(options.layer, {});
+    const Geometry geometry =
+        surface::prepare_within(read_geometry(input), options.surface, pipeline::spacing_limits(options, growth), {});
+    const decoupling::FarField far_field = decoupling::place_far_field(bounding_box(geometry), 1, options.far_field);
+    const layers::Layer layer =
+        layers::make_layer(geometry, options.layer, growth, pipeline::border_options(options, 1, {}));
+    const SizeField field = sizing::make_size_field(border_loops(layer), {}, options.sizing, 1, far_field.box());
+    const decoupling::Decoupling outer = decoupling::decouple(layer.points, layer.borders, field, far_field);
 
     std::vector<Point> points;
     std::vector<VertexId> new_id(outer.points.size());

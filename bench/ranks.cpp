@@ -34,7 +34,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <lamina/shared_mesh.hpp>
+#include <lamina/stream.hpp>
 
 #include "app/kept_memory.hpp"
 #include "core/packing.hpp"

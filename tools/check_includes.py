@@ -6,7 +6,7 @@
 - A folder may include the folders that its CMakeLists.txt names after DEPENDS, and those that they depend on. The
   dependencies have no circle.
 - Some folders have rooms. A room may include those that stand before it in ROOMS; files beside the rooms may include all.
-- app/ includes public headers (<lamina/...>) and its own headers alone.
+- app/ includes public headers (<lamina/...>), its own headers, and those of tables of options (PROGRAM_HEADERS) alone.
 - A public header includes public headers alone, of its own folder or of those that this folder depends on.
 - Inside a folder headers do not include each other in a circle.
 - The drawing docs/images/folders.svg shows these dependencies.
@@ -31,25 +31,25 @@ ROOMS = {
     "layers": ["wake", "directions", "heights", "room", "cells", "border"],
 }
 
+# The private headers that app/ may include: its tables of options have rows of their own.
+PROGRAM_HEADERS = {"core/option_builders.hpp", "core/suggestion.hpp"}
+
 # The folder that owns each public header; a header that is not listed belongs to the folder of its name.
 OWNERS = {name: "core" for name in ("angle_bounds", "conditions", "error", "export", "files", "ids", "interruption",
-                                    "length", "limits", "marker_names", "option", "option_builders", "point", "predicates", "ranks",
-                                    "suggestion", "threads", "version", "warning")}
+                                    "length", "limits", "marker_names", "option", "point", "predicates", "ranks", "threads",
+                                    "version", "warning")}
 OWNERS["transformation"] = "geometry"
 OWNERS["compressible_flow"] = "flow"
 OWNERS["solution"] = "io"
 OWNERS["solution_sizes"] = "adaptation"
 OWNERS["triangle_files"] = "io"
-OWNERS["stored_mesh"] = "io"
 for name in "delaunay_connectivity delaunay_input delaunay_queries dynamic_triangulation triangulation voronoi".split():
     OWNERS[name] = "delaunay"
 OWNERS["places"] = "mesh"
-OWNERS["partition"] = "mesh"
 OWNERS["former_options"] = "pipeline"
 OWNERS["presets"] = "pipeline"
 OWNERS["mesh_sink"] = "mesh"
 OWNERS["stream"] = "pipeline"
-OWNERS["shared_mesh"] = "pipeline"
 OWNERS["mpi_ranks"] = "mpi"
 OWNERS["solver_case"] = "cases"
 
@@ -57,7 +57,6 @@ OWNERS["solver_case"] = "cases"
 COLOURS = {"geometry": "#cfe3f7", "surface": "#d8ecd0", "layers": "#fbe3c0", "sizing": "#f3d3e2",
            "decoupling": "#e0d8f0", "pipeline": "#e8e8e8", "mesh": "#d4efef", "io": "#f4efc4", "plot": "#f0dccf",
            "adaptation": "#dfe7c8", "cases": "#dfe8cf", "page": "#f0dccf"}
-
 
 def dependencies():
     """Returns the set of folders that each folder may include: its DEPENDS list, and those of the folders in it."""
@@ -83,7 +82,6 @@ def dependencies():
         close(folder, [])
     return closed
 
-
 def includes(file):
     """Yields (line number, "public" or "private", path) for each include of a header of lamina."""
     for number, line in enumerate(file.read_text().splitlines(), 1):
@@ -92,15 +90,12 @@ def includes(file):
         elif found := re.match(r'#include "([\w/]+\.hpp)"', line):
             yield number, "private", found.group(1)
 
-
 def owner(header):
     return OWNERS.get(header, header)
-
 
 def is_room_allowed(rooms, room, included):
     """Returns whether a room may include another; files beside the rooms may include all, and may be included by all."""
     return room not in rooms or included not in rooms or rooms.index(included) <= rooms.index(room)
-
 
 def check_file(file, folder, allowed):
     """Yields the violations of one source file or private header."""
@@ -112,13 +107,13 @@ def check_file(file, folder, allowed):
                 yield f"{where}: {folder} may not include <lamina/{path}.hpp> of {owner(path)}"
             continue
         target = path.split("/")[0]
-        if folder == "app" and target != "app":
-            yield f'{where}: app may include public headers alone, not "{path}"'
+        if folder == "app":
+            if target != "app" and path not in PROGRAM_HEADERS:
+                yield f'{where}: app may not include "{path}"'
         elif target not in allowed | {folder}:
             yield f'{where}: {folder} may not include "{path}"'
         elif folder == target and not is_room_allowed(ROOMS.get(folder, []), inside.parts[1], path.split("/")[1]):
             yield f'{where}: {folder}/{inside.parts[1]} may not include "{path}"'
-
 
 def check_public(file, allowed):
     folder = owner(file.stem)
@@ -128,7 +123,6 @@ def check_public(file, allowed):
             yield f'{where}: a public header may not include "{path}"'
         elif owner(path) not in allowed.get(folder, set()) | {folder}:
             yield f"{where}: {folder} may not include <lamina/{path}.hpp> of {owner(path)}"
-
 
 def circles():
     """Yields the circles of includes among the private headers."""
@@ -151,7 +145,6 @@ def circles():
     for name in sorted(graph):
         yield from visit(name, [])
 
-
 def as_dot(allowed):
     """Yields the lines of the dependencies in the language of Graphviz, without those that follow from others."""
     allowed = {**allowed, "app": set(allowed)}
@@ -164,13 +157,11 @@ def as_dot(allowed):
             yield f"    {folder} -> {other};"
     yield "}"
 
-
 def check_drawing(dot):
     drawn = (REPOSITORY / "docs/images/folders.svg").read_text()
     shown = {html.unescape(title) for title in re.findall(r"<title>(.*?)</title>", drawn)}
     if any(f"{start}->{end}" not in shown for start, end in re.findall(r"(\w+) -> (\w+);", dot)):
         yield "docs/images/folders.svg lacks an arrow: draw it anew with ./dev pictures"
-
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
@@ -196,7 +187,6 @@ def main():
     violations += check_drawing("\n".join(as_dot(allowed)))
     print("\n".join(violations) or "includes run one way")
     return 1 if violations else 0
-
 
 if __name__ == "__main__":
     sys.exit(main())

@@ -1,9 +1,21 @@
-// Compressible flow before the mesh: with its shocks and, given a Reynolds number, with turbulent boundary layers that
-// displace it (`lamina flow --mach`, docs/reference/flow.md).
-// solve_compressible_flow() of pipeline.hpp finds it on a mesh of its own.
+// Compressible flow before the mesh: steady, with its shocks and, given a Reynolds number, with turbulent boundary layers
+// that displace it. solve_compressible_flow() of pipeline.hpp finds it on a mesh of its own.
+//
+// Guarantees:
+//  1. CompressibleFlow::converged tells whether the flow is steady; elsewhere the numbers are those of the last step.
+//  2. The flow does not depend on the number of threads.
+// Limits:
+//  1. On RAE 2822 at Mach 0.729 to 0.75 lift is within 1.3 % of that of the Reynolds-averaged equations (SA), drag within
+//     10 %, and shocks within 2 % of the chord. Without boundary layers shocks lie 6 to 9 % too far back.
+//  2. Where layers and flow do not become steady together, as in massively separated flow, and from Mach 1 on the flow is
+//     one without layers (CompressibleFlow::has_layers).
+// Example:
+//     const Geometry section = make_geometry({naca_airfoil("0012", 200)});
+//     const CompressibleFlow flow = solve_compressible_flow(section, {.alpha_deg = 2.5, .reynolds = 6e6, .mach = 0.76});
+//     assert(flow.converged && flow.has_layers && flow.elements[0].upper.shocks.size() == 1);
+//     assert(std::abs(flow.elements[0].upper.shocks[0].position - 0.503) < 0.015);  // that of solutions with SA
 #pragma once
 
-#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -71,10 +83,5 @@ struct CompressibleFlow {
 /// Returns the pressure coefficient at which flow is as fast as sound, cp*: that of the same entropy and total enthalpy
 /// as the free stream of this Mach number. Precondition: mach > 0.
 LAMINA_EXPORT double critical_pressure_coefficient(double mach);
-
-/// Returns the pressure coefficient of subsonic flow of this Mach number where incompressible flow has `incompressible`,
-/// or minus infinity where the formula has none. Precondition: 0 <= mach < 1.
-/// Source: T. von Karman, J. Aeronaut. Sci. 8 (1941), after H. S. Tsien.
-LAMINA_EXPORT double compressed_pressure_coefficient(double incompressible, double mach);
 
 }  // namespace lamina

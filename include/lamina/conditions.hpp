@@ -1,4 +1,11 @@
-// The conditions of the flow that a mesh is made for. They turn no body: the flow comes at the angle of attack.
+// The conditions of the flow that a mesh is made for.
+//
+// Guarantees:
+//  1. Conditions turn no body: the flow comes at the angle of attack. None of them changes the mesh by itself.
+// Example:
+//     const Box section{{0, -0.06}, {2, 0.06}};
+//     const ReferenceConditions c = reference_conditions({.velocity = 30.0, .viscosity = 1.5e-5}, section);
+//     assert(c.chord == 2 && std::abs(*c.reynolds - 4e6) < 1);
 #pragma once
 
 #include <optional>
@@ -8,7 +15,7 @@
 
 namespace lamina {
 
-/// The conditions as they are given. None of them changes the mesh by itself.
+/// The conditions as they are given.
 struct FlowConditions {
     double alpha_deg = 0;               ///< angle of attack: the flow comes from the left and rises at this angle
     std::optional<double> reynolds{};   ///< Reynolds number of the free stream, based on the chord
@@ -18,8 +25,7 @@ struct FlowConditions {
     std::optional<double> viscosity{};  ///< kinematic viscosity, in squared units of the input per second
 };
 
-/// Throws OptionError where an option is out of range, where velocity and viscosity are not given together, and where
-/// both they and the Reynolds number are given.
+/// Throws OptionError for an option out of range, and for velocity or viscosity alone or beside the Reynolds number.
 LAMINA_EXPORT void validate(const FlowConditions& conditions);
 
 /// The conditions that the stages use.
@@ -30,14 +36,8 @@ struct ReferenceConditions {
     std::optional<double> mach{};      ///< FlowConditions::mach
 };
 
-/// Returns whether flow round sections is taken for laminar: below a Reynolds number of 1e4.
-inline bool is_laminar(const ReferenceConditions& conditions) {
-    constexpr double laminar_reynolds = 1e4;
-    return conditions.reynolds && *conditions.reynolds < laminar_reynolds;
-}
-
 /// Returns the conditions of the flow round bodies in this box. The chord is the extent of the box in x unless it is
-/// given. The Reynolds number is the given one, or velocity x chord / viscosity. Throws OptionError as validate() does.
+/// given. The Reynolds number is the given one, or velocity x chord / viscosity. Throws as validate() does.
 LAMINA_EXPORT ReferenceConditions reference_conditions(const FlowConditions& conditions, const Box& bodies);
 
 }  // namespace lamina

@@ -1,4 +1,4 @@
-// The mark of functions and classes that lamina's libraries export. Everything else is hidden in shared libraries.
+// LAMINA_EXPORT marks the functions and classes that lamina's libraries export; all else is hidden in shared libraries.
 #pragma once
 
 #if defined(__GNUC__)

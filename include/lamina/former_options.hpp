@@ -1,4 +1,10 @@
 // Options that earlier versions of lamina had: what serves in their place, or why none is needed.
+//
+// Guarantees:
+//  1. No option that is in use is found.
+// Example:
+//     const FormerOption* flip = find_former_option("--flip");
+//     assert(flip != nullptr && !advice_on_command_line(*flip).empty() && find_former_option("growth") == nullptr);
 #pragma once
 
 #include <span>
@@ -16,18 +22,14 @@ struct FormerOption {
     const char* reason;     ///< a clause that says what the replacement does, or why none is needed
 };
 
-/// Returns all of them.
-LAMINA_EXPORT std::span<const FormerOption> former_options();
+LAMINA_EXPORT std::span<const FormerOption> former_options();  ///< all of them
 
 /// Returns the former option that a word names; none is null. Case, hyphens and underscores do not count.
 LAMINA_EXPORT const FormerOption* find_former_option(const std::string& word);
-
 /// Returns advice to whoever gave the option on the command line: "give --exact-points N: ..."; "leave it out: ...".
 LAMINA_EXPORT std::string advice_on_command_line(const FormerOption& option);
-
 /// Returns advice to whoever wrote the option in a case file or a script: "write exact_points = N: ...".
 LAMINA_EXPORT std::string advice_in_file(const FormerOption& option);
-
 /// Throws OptionError with advice_in_file() where the key, such as "fan_rays", is that of a former option.
 LAMINA_EXPORT void refuse_former_option(const std::string& key);
 

@@ -1,5 +1,11 @@
-// Indices with a type of their own, so that a vertex cannot be taken for a triangle. 32 bits suffice for 4.29e9
-// vertices and half the memory of 64; counts and offsets are std::size_t.
+// Indices with a type of their own, so that a vertex cannot be taken for a triangle, and the cells made of them.
+//
+// Limits:
+//  1. Ids have 32 bits, which suffice for 4.29e9 vertices in half the memory of 64. Counts and offsets are std::size_t.
+// Example:
+//     const std::vector<Point> points{{0, 0}, {1, 0}, {0, 1}};
+//     const Triangle triangle{{VertexId{0u}, VertexId{1u}, VertexId{2u}}};
+//     assert(points[triangle.v[1].index()] == (Point{1, 0}) && !TriangleId{}.valid());
 #pragma once
 
 #include <cstddef>
@@ -11,8 +17,7 @@ namespace lamina {
 /// An index into an array of the things that Tag names. An id that is made without an index is not valid.
 template <class Tag>
 struct Id {
-    /// The index; the largest number where the id is not valid.
-    std::uint32_t value = std::numeric_limits<std::uint32_t>::max();
+    std::uint32_t value = std::numeric_limits<std::uint32_t>::max();  ///< the index; the largest number where not valid
 
     constexpr Id() = default;
     /// Makes a valid id. Precondition: the index is less than 2^32 - 1.

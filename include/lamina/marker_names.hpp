@@ -1,17 +1,17 @@
-// The names of markers. A marker keeps its name through every file: the patches and scripts of OpenFOAM, the marker
-// lists of SU2, physical groups of Gmsh, nodes of CGNS, the families of FUN3D, and files that solvers name after it. So
-// one rule says which names all of them take (docs/reference/formats.md, "Names of markers").
+// The kinds of markers, which are the named parts of the boundary of a mesh, and their names. A marker keeps its name
+// through every file: patches of OpenFOAM, markers of SU2, physical groups of Gmsh, nodes of CGNS, families of FUN3D.
+//
+// Guarantees:
+//  1. legal_marker_name() returns a legal name, and a legal name unchanged.
+// Example:
+//     assert(legal_marker_name("0012", MarkerKind::wall) == "wall_0012");  // no format takes a digit in front
+//     assert(legal_marker_name("slat", MarkerKind::wall) == "slat" && !may_be_wall(MarkerKind::far_field));
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <span>
 #include <string>
-#include <string_view>
-#include <vector>
 
 #include <lamina/export.hpp>
-#include <lamina/warning.hpp>
 
 namespace lamina {
 
@@ -26,35 +26,8 @@ enum class MarkerKind : std::uint8_t {
 /// Returns whether a marker of this kind counts as a wall: unless it is a far field or a symmetry.
 constexpr bool may_be_wall(MarkerKind kind) { return kind == MarkerKind::wall || kind == MarkerKind::other; }
 
-/// The largest length of the name of a marker in bytes: that of a node of CGNS.
-inline constexpr std::size_t max_marker_name = 32;
-
-/// The marker of the outer boundary.
-inline constexpr std::string_view far_field_name = "farfield";
-
-/// Returns the kind of a marker that has no kind, as in a file of a format without kinds, judged by its name. Case,
-/// punctuation and digits do not count.
-LAMINA_EXPORT MarkerKind kind_of_name(std::string_view name);
-
-/// A name that a marker is to have, and its kind.
-struct NamedMarker {
-    std::string name;                     ///< any bytes
-    MarkerKind kind = MarkerKind::other;  ///< the boundary condition that it is meant for
-};
-
-/// Returns the names of markers that every format, solver and shell takes, in the order of the markers. A legal name
-/// begins with a letter, has at most max_marker_name letters, digits, '_', '-' or '.', differs from all others by more
-/// than case, and is no word that a format or a solver keeps for itself; a wall does not have a name that reads as an
-/// outer boundary. Legal names stay; of several that differ by case alone, the first. Other characters become
-/// underscores, "0012" becomes "wall_0012" (far_, symmetry_ or marker_ for other kinds), and a number behind it tells
-/// those apart that have become the same. Names returned stay when they are given again with the same kinds.
-LAMINA_EXPORT std::vector<std::string> legal_marker_names(std::span<const NamedMarker> markers);
-
-/// Returns the name that a marker has if it is the only one.
-LAMINA_EXPORT std::string legal_marker_name(const NamedMarker& marker);
-
-/// Returns the warning that a marker has another name than it was given: "the name '0012' does not begin with a letter:
-/// the marker is 'wall_0012'". Precondition: the names differ.
-LAMINA_EXPORT Warning renamed_marker_warning(const NamedMarker& given, const std::string& name);
+/// Returns the name that lamina gives a marker of this kind in place of one that not every format, solver and shell
+/// takes (docs/reference/formats.md, "Names of markers"). A legal name stays.
+LAMINA_EXPORT std::string legal_marker_name(const std::string& name, MarkerKind kind);
 
 }  // namespace lamina

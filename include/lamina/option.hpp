@@ -1,5 +1,12 @@
 // Options as data. Each options struct of lamina has a table of its options: names, units, ranges and help stand there
 // once. The command line, case files, the guide and validate() all read these tables.
+//
+// Guarantees:
+//  1. Setting an option to a value of the wrong kind or out of range is an OptionError that names it.
+//  2. get() returns a value that set() takes.
+// Example:
+//     assert(option_key("first-height") == "first_height" && numbers_above_up_to(0, 90).text() == "> 0 and <= 90");
+//     assert(positive_numbers.contains(1e-300) && !positive_numbers.contains(0));
 #pragma once
 
 #include <algorithm>

@@ -1,10 +1,15 @@
 // Places of a mesh that people want to see, by name.
+//
+// Guarantees:
+//  1. Names are unique, and windows are squares that hold what they are named after.
+// Limits:
+//  1. Indices of the mesh are in range, and coordinates finite. Markers that may_be_wall() count as walls.
+// Example:
+//     const Mesh mesh = generate_mesh({"naca:0012:60"}, {.layer = {.enabled = false}}).mesh;
+//     const std::vector<Place> places = named_places(mesh);
+//     assert(places[0].name == "all" && places[2].name == "nose:1" && places[2].window.contains({0, 0}));
 #pragma once
 
-#include <string>
-#include <vector>
-
-#include <lamina/export.hpp>
 #include <lamina/mesh.hpp>
 
 namespace lamina {
@@ -15,12 +20,11 @@ struct Place {
     Box window;        ///< the part of the plane, which is square
 };
 
-/// Returns the places of a mesh, from the large ones to the small ones: `all`; `walls`, round all walls; for each body,
-/// counted from 1 in the order of wall_vertices(), `nose:N` and `tail:N`; and for each pair of bodies that are close
-/// to each other, `slot:N`, counted in the direction of x. The tail of a body is its vertex with the largest x, and its
-/// nose the vertex farthest from that. A slot lies where two bodies are nearest to each other; bodies are close where
-/// that gap is at most a tenth of the extent of all walls in x. All markers that may be walls count (may_be_wall()).
-/// Empty for a mesh without points. Precondition: all indices are in range, and coordinates are finite.
+/// Returns the places of a mesh, from the large ones to the small ones; none for a mesh without points:
+///  - `all`; `walls`, round all walls;
+///  - for each body, counted from 1 in the order of wall_vertices(), `nose:N` and `tail:N`: the tail is its vertex with
+///    the largest x, and the nose the vertex farthest from that;
+///  - `slot:N`, counted in the direction of x, in gaps of two bodies up to a tenth of the walls' extent in x.
 LAMINA_EXPORT std::vector<Place> named_places(const Mesh& mesh);
 
 }  // namespace lamina

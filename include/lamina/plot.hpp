@@ -1,16 +1,18 @@
-// Pictures of meshes, and charts.
+// Pictures of meshes, and charts, as .png, .svg or .pdf.
+//
+// Guarantees:
+//  1. The file gets a temporary name beside the target and is renamed; "-" is standard output.
+//  2. In .svg and .pdf many cells that are smaller than a pixel are one image, so that files stay small.
+//  3. IoError, UsageError for other formats and extensions, and OptionError for options out of range are thrown.
+// Example:
+//     const Mesh mesh = generate_mesh({"naca:0012:60"}, {.layer = {.enabled = false}}).mesh;
+//     plot_mesh(mesh, "n.png", {.color = PlotColor::quality, .window = PlotWindow{.place = "nose"}, .width_px = 300});
+//     assert(read_file("n.png").substr(1, 3) == "PNG");
 #pragma once
 
-#include <array>
 #include <filesystem>
-#include <optional>
-#include <span>
-#include <string>
-#include <vector>
 
-#include <lamina/export.hpp>
 #include <lamina/mesh.hpp>
-#include <lamina/point.hpp>
 
 namespace lamina {
 
@@ -40,17 +42,10 @@ struct PlotOptions {
     std::string format{};                ///< "png", "svg" or "pdf"; empty: by the extension of the file
 };
 
-/// Throws OptionError where an option is out of range.
-LAMINA_EXPORT void validate(const PlotOptions& options);
-
-/// Draws the mesh as .png, .svg or .pdf. Walls are red; where there are no cells, their vertices have dots. In .svg and
-/// .pdf many cells that are smaller than a pixel are one image, so that files stay small. The file gets a temporary name
-/// beside the target and is renamed; "-" is standard output. Throws IoError, UsageError for other formats and extensions
-/// and for places that the mesh does not have, OptionError for options out of range.
+LAMINA_EXPORT void validate(const PlotOptions& options);  ///< throws OptionError: an option out of range
+/// Draws the mesh: walls are red, with dots at vertices without cells. Throws UsageError for places unknown, too.
 LAMINA_EXPORT void plot_mesh(const Mesh& mesh, const std::filesystem::path& file, const PlotOptions& options = {});
-
-/// Throws UsageError unless pictures can be written in the format of this name or, where no name is given, in the one
-/// that the extension of the file stands for.
+/// Throws UsageError for an unknown format or, where none is given, an unknown extension.
 LAMINA_EXPORT void check_picture_format(const std::filesystem::path& file, const std::string& format = {});
 
 /// A curve of a chart.
@@ -61,18 +56,15 @@ struct ChartCurve {
 
 /// Options of plot_chart().
 struct ChartOptions {
-    std::string x_label{};     ///< below the horizontal axis
-    std::string y_label{};     ///< above the vertical axis
-    bool y_downwards = false;  ///< whether the numbers of the vertical axis grow downwards
-    /// Interval of y to show, beyond which curves are cut off; empty: all.
-    std::optional<std::array<double, 2>> y_range{};
+    std::string x_label{};                           ///< below the horizontal axis
+    std::string y_label{};                           ///< above the vertical axis
+    bool y_downwards = false;                        ///< whether the numbers of the vertical axis grow downwards
+    std::optional<std::array<double, 2>> y_range{};  ///< what to show of y, beyond which curves are cut off; empty: all
     int width_px = 1200;   ///< width of the picture, in pixels; its height is two thirds of that
     std::string format{};  ///< "png", "svg" or "pdf"; empty: by the extension of the file
 };
 
-/// Draws curves over axes with numbers, each in a colour of its own, as .png, .svg or .pdf. The file gets a temporary
-/// name beside the target and is renamed; "-" is standard output. Throws IoError, UsageError for other formats and
-/// extensions. Precondition: coordinates are finite, and there is at least one point.
+/// Draws curves over axes, each in a colour of its own. Precondition: there is a point, and coordinates are finite.
 LAMINA_EXPORT void plot_chart(std::span<const ChartCurve> curves, const std::filesystem::path& file,
                               const ChartOptions& options = {});
 

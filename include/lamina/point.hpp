@@ -1,5 +1,10 @@
-// Points of the plane, vectors between them, and boxes. All lengths in lamina are in the units of the input; angles are
-// in radians unless a name ends in _deg.
+// Points of the plane, vectors between them, and boxes. Lengths in lamina are in units of the input; angles are in
+// radians unless a name ends in _deg. Results are rounded: whoever decides by a sign needs predicates.hpp.
+//
+// Example:
+//     Box box;
+//     for (const Point p : {Point{0, 0}, Point{4, 2}}) box.include(p);
+//     assert(box.width() == 4 && box.contains(box.center()) && distance(box.center(), {2, 2}) == 1);
 #pragma once
 
 #include <algorithm>
@@ -17,34 +22,22 @@ struct Point {
     friend constexpr bool operator==(Point a, Point b) { return a.x == b.x && a.y == b.y; }
 };
 
-/// Returns the sum of two vectors.
-constexpr Point operator+(Point a, Point b) { return {a.x + b.x, a.y + b.y}; }
-/// Returns the vector from b to a.
-constexpr Point operator-(Point a, Point b) { return {a.x - b.x, a.y - b.y}; }
-/// Returns the opposite vector.
-constexpr Point operator-(Point a) { return {-a.x, -a.y}; }
-/// Returns the vector scaled by s.
-constexpr Point operator*(double s, Point a) { return {s * a.x, s * a.y}; }
+constexpr Point operator+(Point a, Point b) { return {a.x + b.x, a.y + b.y}; }  ///< the sum of two vectors
+constexpr Point operator-(Point a, Point b) { return {a.x - b.x, a.y - b.y}; }  ///< the vector from b to a
+constexpr Point operator-(Point a) { return {-a.x, -a.y}; }                     ///< the opposite vector
+constexpr Point operator*(double s, Point a) { return {s * a.x, s * a.y}; }     ///< the vector scaled by s
 
-/// Returns the scalar product, rounded.
-constexpr double dot(Point a, Point b) { return a.x * b.x + a.y * b.y; }
-/// Returns the cross product, rounded. A decision that hangs on its sign needs orient2d().
-constexpr double cross(Point a, Point b) { return a.x * b.y - a.y * b.x; }
-/// Returns the squared length of a vector.
-constexpr double squared_length(Point a) { return dot(a, a); }
-/// Returns the length of a vector.
-inline double length(Point a) { return std::sqrt(squared_length(a)); }
-/// Returns the distance between two points.
-inline double distance(Point a, Point b) { return length(b - a); }
-/// Returns the point halfway between two points, rounded.
+constexpr double dot(Point a, Point b) { return a.x * b.x + a.y * b.y; }    ///< the scalar product
+constexpr double cross(Point a, Point b) { return a.x * b.y - a.y * b.x; }  ///< the cross product
+constexpr double squared_length(Point a) { return dot(a, a); }              ///< the squared length of a vector
+inline double length(Point a) { return std::sqrt(squared_length(a)); }      ///< the length of a vector
+inline double distance(Point a, Point b) { return length(b - a); }          ///< the distance between two points
+/// Returns the point halfway between two points.
 constexpr Point midpoint(Point a, Point b) { return {0.5 * (a.x + b.x), 0.5 * (a.y + b.y)}; }
-/// Returns the vector turned by 90 degrees counter-clockwise.
-constexpr Point perpendicular(Point a) { return {-a.y, a.x}; }
-/// Returns the vector scaled to length 1. Precondition: a is not zero.
-inline Point unit(Point a) { return (1.0 / length(a)) * a; }
+constexpr Point perpendicular(Point a) { return {-a.y, a.x}; }  ///< the vector turned left by 90 degrees
+inline Point unit(Point a) { return (1.0 / length(a)) * a; }    ///< the vector scaled to length 1; it is not zero
 
-/// Returns whether a comes before b in the order by x and then by y. Every tie rule of the program goes back to this
-/// total order.
+/// Returns whether a comes before b in the order by x and then by y, to which every tie rule of lamina goes back.
 constexpr bool lexicographically_less(Point a, Point b) { return a.x < b.x || (a.x == b.x && a.y < b.y); }
 
 /// An axis-parallel box that includes its border. It is empty, as a new box is, where lower exceeds upper.
@@ -72,12 +65,9 @@ struct Box {
     }
     /// Returns the corners counter-clockwise, from the lower left one on.
     constexpr std::array<Point, 4> corners() const { return {lower, {upper.x, lower.y}, upper, {lower.x, upper.y}}; }
-    /// Returns the extent in x.
-    constexpr double width() const { return upper.x - lower.x; }
-    /// Returns the extent in y.
-    constexpr double height() const { return upper.y - lower.y; }
-    /// Returns the middle of the box.
-    constexpr Point center() const { return midpoint(lower, upper); }
+    constexpr double width() const { return upper.x - lower.x; }       ///< the extent in x
+    constexpr double height() const { return upper.y - lower.y; }      ///< the extent in y
+    constexpr Point center() const { return midpoint(lower, upper); }  ///< the middle of the box
 };
 
 }  // namespace lamina

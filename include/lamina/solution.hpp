@@ -1,11 +1,17 @@
 // Solutions of flow solvers: fields on a mesh, and files that hold them.
+//
+// Guarantees:
+//  1. A field that was read has one finite value for each vertex, or one for each cell.
+//  2. read_sizes() reads sizes back exactly.
+// Example:
+//     const SizedMesh sizes{{{0, 0}, {1, 0}, {0, 1}}, {{{VertexId{0u}, VertexId{1u}, VertexId{2u}}}}, {0.1, 0.2, 0.3}};
+//     write_sizes(sizes, "sizes.vtu");
+//     const Solution solution = read_solution("sizes.vtu", {"size"});
+//     assert(solution.fields[0].values == sizes.sizes && read_sizes("sizes.vtu").sizes == sizes.sizes);
 #pragma once
 
 #include <filesystem>
-#include <string>
-#include <vector>
 
-#include <lamina/export.hpp>
 #include <lamina/mesh.hpp>
 #include <lamina/sizing.hpp>
 
@@ -24,18 +30,16 @@ struct Solution {
     std::vector<SolutionField> fields;  ///< those asked for, in the order of their names
 };
 
-/// Reads fields of a solution. It is a VTU file of triangles and quads with point data or cell data, or a time folder
-/// of an OpenFOAM case with fields in ASCII (volScalarField, volVectorField) on a mesh one cell thick; where it is the
-/// folder of the case, the latest time is read. A name is that of an array of one component; "NAME:x", "NAME:y" or
-/// "NAME:z", a component of an array; or "mag(NAME)", the length of its vectors. Where there are point data and cell
-/// data of a name, the point data are read. `mesh` holds the mesh of the solution in any format that can be read, with
-/// the same numbers; empty: the VTU file itself, or constant/polyMesh beside the time folder. Throws IoError; UsageError
-/// where a field is missing or has no such component; InputError where a file is malformed, where numbers of values and
-/// of points or cells differ, and where a value is not finite.
+/// Reads fields of a solution: a VTU file of triangles and quads with point data or cell data, or a time folder of an
+/// OpenFOAM case with fields in ASCII (volScalarField, volVectorField) on a mesh one cell thick, or the folder of the
+/// case, of which the latest time is read. A name is that of an array of one component; "NAME:x", "NAME:y" or "NAME:z",
+/// a component; or "mag(NAME)", the length of its vectors. Point data come before cell data of the same name. `mesh`
+/// holds the mesh of the solution in any format that can be read; empty: the VTU file itself, or constant/polyMesh
+/// beside the time folder. Throws IoError; UsageError where a field or component is missing; InputError where a file is
+/// malformed, where numbers of values and of points or cells differ, and where a value is not finite.
 LAMINA_EXPORT Solution read_solution(const std::filesystem::path& solution, const std::vector<std::string>& fields,
                                      const std::filesystem::path& mesh = {});
-
-/// Writes sizes as a VTU file, which read_sizes() reads back exactly: point data `size`, and the field data
+/// Writes sizes as a VTU file: point data `size`, and the field data
 /// `lamina_size_gradation` where SizedMesh::gradation is set. Throws IoError.
 LAMINA_EXPORT void write_sizes(const SizedMesh& sizes, const std::filesystem::path& file);
 

@@ -1,19 +1,25 @@
 // Cases of flow solvers: a mesh with everything that a solver needs beside it, ready to run. The files are templates
 // under share/cases/ with placeholders; the library carries them with it.
+//
+// Guarantees:
+//  1. The files do not depend on the machine. Each appears as a whole or not at all.
+// Limits:
+//  1. MeshError for a mesh without markers of the kinds wall and far field. OptionError where the Reynolds number is
+//     missing, or the Mach number of a compressible flow is missing or out of range. UsageError for SU2 where most
+//     cells of the layer are triangles: with the scheme of its case SU2 diverges on them or finds a negative drag.
+// Example:
+//     CaseOptions options{.far_field = {.size = 10}};
+//     options.layer = {.first_height = 1e-3, .layers = 8, .topology = LayerTopology::quads};
+//     const Mesh mesh = generate_mesh({"naca:0012"}, options).mesh;
+//     write_solver_case(FlowSolver::su2, mesh, {.reference = {.reynolds = 6e6}}, "su2_case", {.overwrite = true});
+//     assert(read_file("su2_case/case.cfg").find("REYNOLDS_NUMBER") != std::string::npos);
 #pragma once
 
 #include <filesystem>
-#include <optional>
-#include <string>
 #include <utility>
-#include <vector>
 
-#include <lamina/conditions.hpp>
-#include <lamina/export.hpp>
 #include <lamina/flow.hpp>
 #include <lamina/mesh.hpp>
-#include <lamina/point.hpp>
-#include <lamina/warning.hpp>
 
 namespace lamina {
 
@@ -32,7 +38,7 @@ enum class TurbulenceModel {
 
 /// Options of cases.
 struct SolverCaseOptions {
-    /// The model that closes the equations; empty: none where is_laminar(), Spalart-Allmaras elsewhere.
+    /// The model that closes the equations; empty: none below a Reynolds number of 1e4, Spalart-Allmaras above.
     std::optional<TurbulenceModel> turbulence{};
     bool overwrite = false;  ///< whether files of the folder that have the name of a file of the case are replaced
     /// Whether OpenFOAM's case is that of a gas, at ReferenceConditions::mach, above 0 and below 1. SU2's always is.
@@ -41,15 +47,12 @@ struct SolverCaseOptions {
 
 /// Throws OptionError where no case of the solver is for a flow of this Mach number, which may be missing.
 LAMINA_EXPORT void validate(FlowSolver solver, const SolverCaseOptions& options, const std::optional<double>& mach);
-
 /// Returns the solvers by their names on the command line: "openfoam", "su2".
 LAMINA_EXPORT const std::vector<std::pair<std::string, FlowSolver>>& flow_solvers();
-
 /// The Mach number of a case of SU2 where none is given.
 inline constexpr double default_case_mach = 0.15;
-
 /// Returns the half-width of the far field, in chords, that suits the conditions that the solver has for it at a Mach
-/// number. OpenFOAM's far field carries the vortex of the lift; SU2's is a uniform stream. What is behind shocks of
+/// number: OpenFOAM's far field carries the vortex of the lift; SU2's is a uniform stream, and what is behind shocks of
 /// supersonic flow reaches no far.
 LAMINA_EXPORT double far_field_for(FlowSolver solver, double mach = default_case_mach);
 
@@ -61,47 +64,24 @@ struct SolverConditions {
     bool wall_functions = false;          ///< whether the first cells lie in the logarithmic layer
 };
 
-/// A file of a case beside the mesh.
-struct SolverCaseFile {
-    std::filesystem::path name;  ///< within the folder of the case: "system/controlDict"
-    std::string text;            ///< its contents
-    bool executable = false;     ///< whether it is a script to run
-};
-
-/// Returns the files of a case without the mesh. They do not depend on the machine. Walls of the mesh are its markers
-/// of the kind wall, and its far field is all markers of that kind. Throws OptionError where the Reynolds number is
-/// missing, or the Mach number of a compressible flow is missing or out of range, MeshError where the mesh has no wall
-/// or no far field, and UsageError for SU2 where most cells of the layer are triangles: with the scheme of its case SU2
-/// diverges on them or finds a negative drag.
-LAMINA_EXPORT std::vector<SolverCaseFile> solver_case_files(FlowSolver solver, const Mesh& mesh,
-                                                            const SolverConditions& conditions,
-                                                            const SolverCaseOptions& options = {});
-
-/// Returns WarningCode::unsuited_to_solver where most cells of the mesh's layer are triangles: simpleFoam diverges on
-/// them within 35 iterations. For SU2 there is no such case at all (solver_case_files()).
+/// Returns WarningCode::unsuited_to_solver where most cells of the layer are triangles, on which simpleFoam diverges.
 LAMINA_EXPORT std::vector<Warning> find_solver_warnings(FlowSolver solver, const Mesh& mesh);
-
 /// Returns WarningCode::unsuited_speed where a case or its mesh is not made for this Mach number. For OpenFOAM that is
-/// above 0.5, and where the flow is expected to be supersonic along more than 0.05 chords of the walls, by the
-/// pressures of the incompressible flow before the mesh (null where there is none) and Karman and Tsien's rule. SU2's
-/// settings are made for all Mach numbers: there it is where sizes follow no shocks (FlowDecisions::knows_shocks) that
-/// are expected, or a free stream that is supersonic, whose bow shocks they leave out.
+/// above 0.5, and where the flow is expected to be supersonic along more than 0.05 chords of the walls, by the pressures
+/// of the incompressible flow before the mesh (null where there is none) and Karman and Tsien's rule. SU2's settings are
+/// made for all Mach numbers: there it is where sizes follow no shocks (FlowDecisions::knows_shocks) that are expected,
+/// and at supersonic free streams, whose bow shocks they leave out.
 LAMINA_EXPORT std::vector<Warning> find_speed_warnings(FlowSolver solver, double mach, const Flow* flow,
                                                        bool knows_shocks);
-
 /// Returns the names of all files of a case in this folder. The first is the mesh, or the folder that it is in.
 LAMINA_EXPORT std::vector<std::filesystem::path> solver_case_outputs(FlowSolver solver,
                                                                      const std::filesystem::path& folder,
                                                                      const SolverCaseOptions& options = {});
-
-/// Throws what write_solver_case() would throw for the folder, so that it is found before minutes of meshing:
-/// UsageError where a file of the case exists and SolverCaseOptions::overwrite is not set, IoError where the folder
-/// cannot be written to.
+/// Throws what write_solver_case() would throw for the folder: UsageError where a file of the case exists and
+/// SolverCaseOptions::overwrite is not set, IoError where the folder cannot be written to.
 LAMINA_EXPORT void check_solver_case_writable(FlowSolver solver, const std::filesystem::path& folder,
                                               const SolverCaseOptions& options = {});
-
-/// Writes mesh and case into a folder, which is created if it is missing. Each file appears as a whole or not at all.
-/// Throws as solver_case_files() and check_solver_case_writable() do, and IoError.
+/// Writes mesh and case into a folder, which is created if it is missing.
 LAMINA_EXPORT void write_solver_case(FlowSolver solver, const Mesh& mesh, const SolverConditions& conditions,
                                      const std::filesystem::path& folder, const SolverCaseOptions& options = {});
 

@@ -1,5 +1,11 @@
-// Warnings: a valid result that is probably not what the user wants. They are data beside the result; the program
-// prints each as one line (docs/reference/checks.md, "Warnings").
+// Warnings: a valid result that is probably not what the user wants.
+//
+// Guarantees:
+//  1. Warnings are data beside the result (MeshResult::warnings, Element::warnings); the program prints each as a line.
+//  2. The names of kinds never change. docs/reference/checks.md says what to do about each.
+// Example:
+//     const Warning warning{.code = WarningCode::large_angle, .number = 178.5, .unit = "degrees"};
+//     assert(warning_name(warning.code) == "large_angle" && !warning.at);
 #pragma once
 
 #include <optional>
@@ -41,8 +47,7 @@ enum class WarningCode {
     noise_smoothed,            ///< the points of an outline scatter like those of a scan, and were smoothed
 };
 
-/// Returns the stable name of a kind: "first_layer_lost".
-LAMINA_EXPORT std::string warning_name(WarningCode code);
+LAMINA_EXPORT std::string warning_name(WarningCode code);  ///< the name of a kind: "first_layer_lost"
 
 /// One warning.
 struct Warning {

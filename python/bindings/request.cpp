@@ -13,9 +13,9 @@
 
 #include <lamina/former_options.hpp>
 #include <lamina/io.hpp>
-#include <lamina/option_builders.hpp>
 
 #include "bindings.hpp"
+#include "core/option_builders.hpp"
 
 namespace lamina::python {
 

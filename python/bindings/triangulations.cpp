@@ -15,11 +15,11 @@
 
 #include <lamina/delaunay.hpp>
 #include <lamina/limits.hpp>
-#include <lamina/option_builders.hpp>
 #include <lamina/threads.hpp>
 
 #include "arrays.hpp"
 #include "bindings.hpp"
+#include "core/option_builders.hpp"
 #include "interruption.hpp"
 
 namespace lamina::python {
@@ -97,15 +97,11 @@ using SizeArgument = std::variant<double, std::tuple<PointsArgument, TrianglesAr
 SizeField size_field_of(const SizeArgument& argument, double gradation, const Box& domain) {
     if (const double* size = std::get_if<double>(&argument)) return SizeField(*size);
     const auto& [points, triangles, sizes] = std::get<1>(argument);
-    auto background = std::make_shared<SizedMesh>();
-    background->points = points_of(points);
-    background->triangles = cells_of<Triangle, 3>(triangles);
-    background->sizes.assign(sizes.data(), sizes.data() + sizes.shape(0));
-    SizingOptions options;
-    options.gradation = gradation;
-    options.background = std::move(background);
-    const SizeRequests requests = gather_size_requests(options, {}, {}, domain);
-    return SizeField(requests.sources, {.gradation = gradation}, domain);
+    SizedMesh background;
+    background.points = points_of(points);
+    background.triangles = cells_of<Triangle, 3>(triangles);
+    background.sizes.assign(sizes.data(), sizes.data() + sizes.shape(0));
+    return size_field_of_mesh(background, {.gradation = gradation}, domain);
 }
 
 /// Throws LimitError where the refinement would exceed the limits.

@@ -10,6 +10,7 @@
 
 #include <lamina/error.hpp>
 
+#include "adaptation/hessian.hpp"
 #include "adaptation/vertex_patches.hpp"
 #include "core/parallel.hpp"
 
@@ -110,12 +111,6 @@ void require_fitting(const Mesh& mesh, const SolutionField& field) {
 
 }  // namespace
 
-}  // namespace lamina::adaptation
-
-namespace lamina {
-
-using namespace adaptation;
-
 double largest_curvature(const Hessian& hessian) {
     const double mean = 0.5 * (hessian.xx + hessian.yy), half = 0.5 * (hessian.xx - hessian.yy);
     return std::abs(mean) + std::sqrt(half * half + hessian.xy * hessian.xy);
@@ -134,4 +129,4 @@ std::vector<Hessian> recover_hessians(const Mesh& mesh, const SolutionField& fie
     return hessians;
 }
 
-}  // namespace lamina
+}  // namespace lamina::adaptation

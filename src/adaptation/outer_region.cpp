@@ -1,4 +1,5 @@
 #include "adaptation/outer_region.hpp"
+#include "decoupling/subdomain.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -11,6 +12,7 @@
 #include "core/box_tree.hpp"
 #include "core/parallel.hpp"
 #include "mesh/adjacency.hpp"
+#include "sizing/requests.hpp"
 
 namespace lamina::adaptation {
 
@@ -118,10 +120,10 @@ std::vector<Point> corners_of(const Mesh& mesh, const VertexLoop& loop) {
     return corners;
 }
 
-FarField far_field_of(const Mesh& mesh, const VertexLoop& loop) {
+decoupling::FarField far_field_of(const Mesh& mesh, const VertexLoop& loop) {
     const Box box = box_of(mesh, loop);
     const double width = box.upper.x - box.lower.x, height = box.upper.y - box.lower.y;
-    FarField far_field;
+    decoupling::FarField far_field;
     far_field.center = midpoint(box.lower, box.upper);
     far_field.radius = 0.5 * width;
     const std::vector<Point> corners = corners_of(mesh, loop);
@@ -185,13 +187,14 @@ std::size_t count_vertices(const OuterRegion& region, const SizedMesh& sizes) {
         for (const VertexId v : border) loops.back().push_back(region.points[v.index()]);
     }
     const Box domain = region.far_field.box();
-    const SizeRequests requests = gather_size_requests(sizing, {}, loops, domain);
-    const SizeField field = make_size_field(loops, requests.sources, sizing, 1, domain);
+    const sizing::SizeRequests requests = sizing::gather_size_requests(sizing, {}, loops, domain);
+    const SizeField field = sizing::make_size_field(loops, requests.sources, sizing, 1, domain);
     RefineOptions refine_options;
     Box bodies;
     for (const Point p : region.points) bodies.include(p);
     if (!region.points.empty()) refine_options.unit_length = bodies.width();
-    const Decoupling decoupling = decouple(region.points, region.borders, field, region.far_field, {}, refine_options);
+    const decoupling::Decoupling decoupling =
+        decoupling::decouple(region.points, region.borders, field, region.far_field, {}, refine_options);
     std::size_t vertices = region.inside_vertices + decoupling.points.size();
     for (const Refinement& refinement : refine(decoupling.subdomains)) vertices += refinement.steiner_points.size();
     return vertices;
@@ -201,7 +204,7 @@ std::vector<double> sizes_of_borders(const OuterRegion& region, std::span<const 
     // An edge may be a little longer than the size of a source there, and edges of the next mesh a little longer than
     // those of this one.
     constexpr double margin = 1.15;
-    const double gradation = border_gradation(SizingOptions{}.gradation);
+    const double gradation = sizing::border_gradation(SizingOptions{}.gradation);
     std::vector<Segment> edges;
     std::vector<Box> boxes;
     std::vector<double> negative_sizes;
@@ -213,7 +216,7 @@ std::vector<double> sizes_of_borders(const OuterRegion& region, std::span<const 
             boxes.emplace_back();
             boxes.back().include(a);
             boxes.back().include(b);
-            negative_sizes.push_back(-margin * distance(a, b) / frozen_share);
+            negative_sizes.push_back(-margin * distance(a, b) / sizing::frozen_share);
         }
     std::vector<double> sizes(points.size(), 0.0);
     if (edges.empty()) return sizes;

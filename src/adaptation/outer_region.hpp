@@ -5,9 +5,10 @@
 #include <span>
 #include <vector>
 
-#include <lamina/decoupling.hpp>
 #include <lamina/mesh.hpp>
 #include <lamina/sizing.hpp>
+
+#include "decoupling/far_field.hpp"
 
 namespace lamina::adaptation {
 
@@ -15,7 +16,7 @@ namespace lamina::adaptation {
 struct OuterRegion {
     std::vector<Point> points;                   ///< the vertices of the inner borders
     std::vector<std::vector<VertexId>> borders;  ///< indices into points, counter-clockwise round bodies and layers
-    FarField far_field;                          ///< the outer border
+    decoupling::FarField far_field;              ///< the outer border
     std::size_t inside_vertices = 0;             ///< number of vertices in and below the layers, without the borders'
 };
 

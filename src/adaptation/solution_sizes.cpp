@@ -11,6 +11,7 @@
 
 #include <lamina/error.hpp>
 
+#include "adaptation/hessian.hpp"
 #include "adaptation/outer_region.hpp"
 #include "adaptation/vertex_patches.hpp"
 #include "core/reproducible_math.hpp"

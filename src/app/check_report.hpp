@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include <lamina/io.hpp>
 #include <lamina/mesh.hpp>
-#include <lamina/stored_mesh.hpp>
 
 #include "app/report.hpp"
 

@@ -16,7 +16,6 @@
 #include <lamina/files.hpp>
 #include <lamina/former_options.hpp>
 #include <lamina/io.hpp>
-#include <lamina/suggestion.hpp>
 
 #include "app/batch_run.hpp"
 #include "app/commands.hpp"
@@ -26,6 +25,7 @@
 #include "app/options.hpp"
 #include "app/run_files.hpp"
 #include "app/standard_output.hpp"
+#include "core/suggestion.hpp"
 
 namespace lamina::app {
 

@@ -12,7 +12,6 @@
 #include <lamina/limits.hpp>
 #include <lamina/mesh.hpp>
 #include <lamina/pipeline.hpp>
-#include <lamina/stored_mesh.hpp>
 
 #include "app/check_report.hpp"
 #include "app/commands.hpp"

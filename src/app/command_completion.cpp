@@ -5,13 +5,13 @@
 #include <vector>
 
 #include <lamina/error.hpp>
-#include <lamina/option_builders.hpp>
 
 #include "app/command_facts.hpp"
 #include "app/commands.hpp"
 #include "app/completion.hpp"
 #include "app/man_page.hpp"
 #include "app/standard_output.hpp"
+#include "core/option_builders.hpp"
 
 namespace lamina::app {
 

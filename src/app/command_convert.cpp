@@ -10,7 +10,6 @@
 #include <lamina/error.hpp>
 #include <lamina/files.hpp>
 #include <lamina/io.hpp>
-#include <lamina/stored_mesh.hpp>
 
 #include "app/commands.hpp"
 #include "app/format_help.hpp"

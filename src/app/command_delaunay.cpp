@@ -11,7 +11,6 @@
 #include <lamina/error.hpp>
 #include <lamina/files.hpp>
 #include <lamina/mesh.hpp>
-#include <lamina/option_builders.hpp>
 #include <lamina/pipeline.hpp>
 #include <lamina/predicates.hpp>
 #include <lamina/threads.hpp>
@@ -27,6 +26,7 @@
 #include "app/standard_output.hpp"
 #include "app/stopwatch.hpp"
 #include "app/table_option.hpp"
+#include "core/option_builders.hpp"
 
 namespace lamina::app {
 

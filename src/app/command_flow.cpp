@@ -241,7 +241,7 @@ void flow(const FlowArguments& arguments) {
     const Geometry geometry = read_geometry(mesh_case.inputs, options.geometry);
     const ReferenceConditions reference = reference_conditions(conditions, reference_box(geometry));
     print_warnings_of_reader(geometry);
-    const FlowText text = solve(geometry, prepare_surfaces(geometry, options.surface, {}, reference.chord), conditions,
+    const FlowText text = solve(geometry, prepare_surfaces(geometry, options.surface, reference.chord), conditions,
                                 reference.reynolds.has_value());
     if (!arguments.table.empty()) write_file(arguments.table, text.table);
     if (!arguments.picture.empty())

@@ -2,7 +2,6 @@
 #include <map>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <lamina/pipeline.hpp>
@@ -38,11 +37,7 @@ void add_info_command(CLI::App& app) {
         }
         require_consistent(mesh_case);
         const CaseOptions& options = mesh_case.options;
-        Geometry geometry = read_geometry(mesh_case.inputs, options.geometry);
-        const ReferenceConditions conditions = reference_conditions(options.conditions, reference_box(geometry));
-        const LayerGrowth growth = layer_growth(options.layer, conditions);
-        const SpacingLimits limits = spacing_limits(options, growth);
-        print_result(describe(prepare_surfaces(std::move(geometry), options.surface, limits, conditions.chord)));
+        print_result(describe(prepare_geometry(read_geometry(mesh_case.inputs, options.geometry), options)));
     });
 }
 

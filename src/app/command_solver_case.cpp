@@ -7,7 +7,6 @@
 #include <vector>
 
 #include <lamina/error.hpp>
-#include <lamina/option_builders.hpp>
 #include <lamina/solver_case.hpp>
 
 #include "app/commands.hpp"
@@ -17,6 +16,7 @@
 #include "app/options.hpp"
 #include "app/presets.hpp"
 #include "app/table_option.hpp"
+#include "core/option_builders.hpp"
 
 namespace lamina::app {
 

@@ -12,7 +12,6 @@
 
 #include <lamina/error.hpp>
 #include <lamina/files.hpp>
-#include <lamina/option_builders.hpp>
 #include <lamina/pipeline.hpp>
 
 #include "app/mesh_command_options.hpp"
@@ -21,6 +20,7 @@
 #include "app/run_files.hpp"
 #include "app/standard_output.hpp"
 #include "app/summary.hpp"
+#include "core/option_builders.hpp"
 
 namespace lamina::app {
 

@@ -14,7 +14,6 @@
 #include <lamina/files.hpp>
 #include <lamina/io.hpp>
 #include <lamina/page.hpp>
-#include <lamina/shared_mesh.hpp>
 #include <lamina/solver_case.hpp>
 #include <lamina/stream.hpp>
 

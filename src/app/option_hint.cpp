@@ -9,7 +9,8 @@
 #include <fmt/ranges.h>
 
 #include <lamina/former_options.hpp>
-#include <lamina/suggestion.hpp>
+
+#include "core/suggestion.hpp"
 
 namespace lamina::app {
 

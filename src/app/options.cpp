@@ -10,10 +10,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <lamina/option_builders.hpp>
-
 #include "app/format_help.hpp"
 #include "app/presets.hpp"
+#include "core/option_builders.hpp"
 
 namespace lamina::app {
 

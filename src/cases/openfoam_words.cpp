@@ -5,6 +5,7 @@
 #include <lamina/io.hpp>
 
 #include "cases/words.hpp"
+#include "io/openfoam_span.hpp"
 
 namespace lamina::cases {
 
@@ -108,7 +109,7 @@ Words openfoam_words(const CaseFlow& flow) {
     words["VELOCITY"] = number(flow.velocity);
     words["NU"] = number(flow.viscosity);
     words["CHORD"] = number(flow.chord);
-    words["AREA"] = number(flow.chord * openfoam_span);
+    words["AREA"] = number(flow.chord * io::openfoam_span);
     // At each step lift swings by 0.2 per degree before it settles.
     constexpr double step_of_angles = 1;
     words["ANGLES"] = fmt::format("{}", fmt::join(angles_to(flow.alpha_deg, step_of_angles), " "));

@@ -13,10 +13,12 @@
 #include <lamina/files.hpp>
 #include <lamina/io.hpp>
 
+#include "cases/case_files.hpp"
 #include "cases/templates.hpp"
 #include "cases/words.hpp"
 #include "core/atomic_file.hpp"
 #include "core/reproducible_math.hpp"
+#include "flow/boundary_layer.hpp"
 
 namespace lamina::cases {
 
@@ -115,7 +117,7 @@ CaseFlow case_flow(FlowSolver solver, const Mesh& mesh, const SolverConditions& 
     const double alpha = core::radians(alpha_deg);
     flow.direction = {core::cos_reproducible(alpha), core::sin_reproducible(alpha)};
     flow.wall_functions = conditions.wall_functions;
-    flow.turbulence = turbulence_of(options, is_laminar(conditions.reference));
+    flow.turbulence = turbulence_of(options, flow::is_laminar(conditions.reference));
     flow.walls = names_of_markers(mesh, MarkerKind::wall);
     flow.far_fields = names_of_markers(mesh, MarkerKind::far_field);
     flow.symmetries = names_of_markers(mesh, MarkerKind::symmetry);
@@ -136,6 +138,22 @@ void write_case_file(const SolverCaseFile& file, const fs::path& folder) {
 }
 
 }  // namespace
+
+std::vector<SolverCaseFile> solver_case_files(FlowSolver solver, const Mesh& mesh, const SolverConditions& conditions,
+                                              const SolverCaseOptions& options) {
+    if (solver == FlowSolver::su2 && thin_triangles(mesh) > 0)
+        throw UsageError(
+            "a case of SU2 needs quadrilaterals in the layer, since SU2 finds wrong forces on triangles: "
+            "--layer-topology quads, with thinner or fewer layers where rows would cross");
+    const SolverEntry& entry = entry_of(solver);
+    const CaseFlow flow = case_flow(solver, mesh, conditions, options);
+    const Words words = entry.words(flow);
+    std::vector<SolverCaseFile> files;
+    for (const Template& file : templates())
+        if (belongs_to_case(file, entry, flow.turbulence, options.compressible))
+            files.push_back({fs::path(file.name), fill_in(file.text, words), file.text.starts_with("#!")});
+    return files;
+}
 
 }  // namespace lamina::cases
 
@@ -163,22 +181,6 @@ void validate(FlowSolver solver, const SolverCaseOptions& options, const std::op
 double far_field_for(FlowSolver solver, double mach) {
     constexpr double supersonic = 30;
     return mach < 1 ? entry_of(solver).far_field : supersonic;
-}
-
-std::vector<SolverCaseFile> solver_case_files(FlowSolver solver, const Mesh& mesh, const SolverConditions& conditions,
-                                              const SolverCaseOptions& options) {
-    if (solver == FlowSolver::su2 && thin_triangles(mesh) > 0)
-        throw UsageError(
-            "a case of SU2 needs quadrilaterals in the layer, since SU2 finds wrong forces on triangles: "
-            "--layer-topology quads, with thinner or fewer layers where rows would cross");
-    const SolverEntry& entry = entry_of(solver);
-    const CaseFlow flow = case_flow(solver, mesh, conditions, options);
-    const Words words = entry.words(flow);
-    std::vector<SolverCaseFile> files;
-    for (const Template& file : templates())
-        if (belongs_to_case(file, entry, flow.turbulence, options.compressible))
-            files.push_back({fs::path(file.name), fill_in(file.text, words), file.text.starts_with("#!")});
-    return files;
 }
 
 std::vector<Warning> find_solver_warnings(FlowSolver solver, const Mesh& mesh) {

@@ -6,6 +6,8 @@
 #include <lamina/flow.hpp>
 #include <lamina/solver_case.hpp>
 
+#include "flow/potential.hpp"
+
 namespace lamina {
 
 namespace {
@@ -24,7 +26,7 @@ std::vector<Warning> find_speed_warnings(FlowSolver solver, double mach, const F
     // Glauert). The CRM-HL at Mach 0.2 is supersonic along 0.026 chords by this measure, and its cases run.
     constexpr double largest_mach = 0.5, longest = 0.05;
     double length = 0;
-    if (flow != nullptr && !flow->estimated && mach > 0 && mach < 1) length = supersonic_length(*flow, mach);
+    if (flow != nullptr && !flow->estimated && mach > 0 && mach < 1) length = flow::supersonic_length(*flow, mach);
     const std::string where =
         length > longest
             ? fmt::format(", where the flow is expected to be supersonic along {:.2f} chords of the walls", length)

@@ -12,6 +12,7 @@
 #include <lamina/limits.hpp>
 
 #include "core/atomic_file.hpp"
+#include "core/limits.hpp"
 
 namespace lamina {
 
@@ -30,13 +31,13 @@ std::string read_blocks(const std::string& name, std::size_t max_bytes, const Re
     std::string bytes;
     for (std::size_t got = block; got > 0;) {
         const std::size_t before = bytes.size();
-        if (before > max_bytes) throw IoError(name, "cannot read: is larger than " + memory_text(max_bytes));
+        if (before > max_bytes) throw IoError(name, "cannot read: is larger than " + core::memory_text(max_bytes));
         if (before >= next_look) {
             next_look *= 2;
             // A text that grows is copied once in a while, and then takes its room twice.
             if (const auto free = free_memory(); free && *free < next_look)
-                throw IoError(name, "cannot read: is larger than " + memory_text(before) + ", and only " +
-                                        memory_text(*free / block * block) + " of memory are free");
+                throw IoError(name, "cannot read: is larger than " + core::memory_text(before) + ", and only " +
+                                        core::memory_text(*free / block * block) + " of memory are free");
         }
         bytes.resize(before + block);
         got = read(bytes.data() + before, block);

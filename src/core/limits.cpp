@@ -1,5 +1,5 @@
 // The one place where numbers of triangles become memory, time and refusals.
-#include <lamina/limits.hpp>
+#include "core/limits.hpp"
 
 #include <algorithm>
 #include <array>
@@ -63,6 +63,36 @@ std::string exceeded_limit(const WorkLimits& limits, const RunEstimate& estimate
 
 }  // namespace
 
+std::size_t parse_memory(const std::string& text) {
+    const UsageError error("'" + text + "' is no number of bytes, such as 500M or 2G");
+    const std::size_t length = std::min(text.find_first_not_of("0123456789."), text.size());
+    std::string unit = lower_case(text.substr(length));
+    if (unit.ends_with("b")) unit.pop_back();
+    if (unit.ends_with("i")) unit.pop_back();
+    double bytes = 0;
+    const auto [end, code] = std::from_chars(text.data(), text.data() + length, bytes);
+    if (code != std::errc{} || end != text.data() + length) throw error;
+    if (!unit.empty()) {
+        const std::size_t power = std::string_view("kmgt").find(unit);
+        if (unit.size() != 1 || power == std::string::npos) throw error;
+        bytes *= std::pow(kibi, static_cast<double>(power + 1));
+    }
+    if (!(bytes >= 1 && bytes < 0x1p63)) throw error;
+    // Where addresses have 32 bits, more bytes than these limit nothing.
+    constexpr auto most = std::numeric_limits<std::size_t>::max();
+    return bytes < static_cast<double>(most) ? static_cast<std::size_t>(bytes) : most;
+}
+
+std::string memory_text(std::size_t bytes) {
+    std::string unit;
+    for (const char letter : std::string_view("KMGT")) {
+        if (bytes % 1024 != 0 || bytes == 0) break;
+        bytes /= 1024;
+        unit = letter;
+    }
+    return std::to_string(bytes) + unit;
+}
+
 }  // namespace lamina::core
 
 namespace lamina {
@@ -116,36 +146,6 @@ void require_made_within(const WorkLimits& limits, double triangles, const WorkC
                          concat(*limits.max_triangles, " triangles are allowed, and ", fixed_text(triangles, 0),
                                 " were made, more than was estimated"),
                          estimate_run(triangles, cost, threads));
-}
-
-std::size_t parse_memory(const std::string& text) {
-    const UsageError error("'" + text + "' is no number of bytes, such as 500M or 2G");
-    const std::size_t length = std::min(text.find_first_not_of("0123456789."), text.size());
-    std::string unit = lower_case(text.substr(length));
-    if (unit.ends_with("b")) unit.pop_back();
-    if (unit.ends_with("i")) unit.pop_back();
-    double bytes = 0;
-    const auto [end, code] = std::from_chars(text.data(), text.data() + length, bytes);
-    if (code != std::errc{} || end != text.data() + length) throw error;
-    if (!unit.empty()) {
-        const std::size_t power = std::string_view("kmgt").find(unit);
-        if (unit.size() != 1 || power == std::string::npos) throw error;
-        bytes *= std::pow(kibi, static_cast<double>(power + 1));
-    }
-    if (!(bytes >= 1 && bytes < 0x1p63)) throw error;
-    // Where addresses have 32 bits, more bytes than these limit nothing.
-    constexpr auto most = std::numeric_limits<std::size_t>::max();
-    return bytes < static_cast<double>(most) ? static_cast<std::size_t>(bytes) : most;
-}
-
-std::string memory_text(std::size_t bytes) {
-    std::string unit;
-    for (const char letter : std::string_view("KMGT")) {
-        if (bytes % 1024 != 0 || bytes == 0) break;
-        bytes /= 1024;
-        unit = letter;
-    }
-    return std::to_string(bytes) + unit;
 }
 
 WorkLimits with_default_limits(WorkLimits limits) {

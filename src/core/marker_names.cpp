@@ -1,4 +1,4 @@
-#include <lamina/marker_names.hpp>
+#include "core/marker_names.hpp"
 
 #include <algorithm>
 #include <array>
@@ -84,12 +84,6 @@ std::string changed(const NamedMarker& marker) {
 
 }  // namespace
 
-}  // namespace lamina::core
-
-namespace lamina {
-
-using namespace core;
-
 MarkerKind kind_of_name(std::string_view name) {
     std::string letters;
     for (const char c : name)
@@ -121,8 +115,6 @@ std::vector<std::string> legal_marker_names(std::span<const NamedMarker> markers
     return names;
 }
 
-std::string legal_marker_name(const NamedMarker& marker) { return legal_marker_names({&marker, 1}).front(); }
-
 Warning renamed_marker_warning(const NamedMarker& given, const std::string& name) {
     std::string reason = defect_of(given);
     if (reason.empty()) reason = "is that of another marker, or differs from it by case alone";
@@ -130,6 +122,14 @@ Warning renamed_marker_warning(const NamedMarker& given, const std::string& name
             .number = 1,
             .unit = "markers",
             .message = concat("the name '", given.name, "' ", reason, ": the marker is '", name, "'")};
+}
+
+}  // namespace lamina::core
+
+namespace lamina {
+
+std::string legal_marker_name(const std::string& name, MarkerKind kind) {
+    return core::legal_marker_names(std::array{core::NamedMarker{name, kind}}).front();
 }
 
 }  // namespace lamina

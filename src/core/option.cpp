@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <lamina/option_builders.hpp>
-#include <lamina/suggestion.hpp>
-
+#include "core/length.hpp"
+#include "core/option_builders.hpp"
+#include "core/suggestion.hpp"
 #include "core/text.hpp"
 
 namespace lamina {
@@ -66,7 +66,7 @@ Length as_length(const OptionValue& value, const std::string& option) {
     const auto* word = std::get_if<std::string>(&value);
     if (!word) return as_number(value, option);
     try {
-        return parse_length(*word);
+        return core::parse_length(*word);
     } catch (const UsageError& error) {
         throw OptionError(option, error.what());
     }
@@ -74,7 +74,7 @@ Length as_length(const OptionValue& value, const std::string& option) {
 
 OptionValue option_value(Length length) {
     if (length.unit == LengthUnit::chord) return length.value;
-    return length_text(length);
+    return core::length_text(length);
 }
 
 std::int64_t as_count(const OptionValue& value, const std::string& option) {

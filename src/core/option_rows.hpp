@@ -6,7 +6,8 @@
 #pragma once
 
 #include <lamina/export.hpp>
-#include <lamina/option_builders.hpp>
+
+#include "core/option_builders.hpp"
 
 namespace lamina {
 

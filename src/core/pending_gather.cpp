@@ -1,13 +1,13 @@
 // Bytes of all ranks for all of them, sent from one to one, since collective functions of MPI get on only while all ranks
 // wait in them.
-#include <lamina/ranks.hpp>
+#include "core/connected_ranks.hpp"
 
 #include <algorithm>
 #include <utility>
 
 #include "core/packing.hpp"
 
-namespace lamina {
+namespace lamina::core {
 
 namespace {
 
@@ -21,7 +21,7 @@ constexpr unsigned told_by_each = 8;
 
 }  // namespace
 
-PendingGather::PendingGather(Ranks& ranks, std::string_view bytes) : ranks_(ranks) {
+PendingGather::PendingGather(ConnectedRanks& ranks, std::string_view bytes) : ranks_(ranks) {
     if (ranks_.rank() == 0) {
         collected_.emplace_back(bytes);
         advance(false);
@@ -51,7 +51,7 @@ std::vector<std::string> PendingGather::take() {
     const std::lock_guard lock(mutex_);
     advance(true);
     std::vector<std::string> texts;
-    for (core::Unpacker unpacker(all_); !unpacker.at_end();) texts.push_back(unpacker.get_text());
+    for (Unpacker unpacker(all_); !unpacker.at_end();) texts.push_back(unpacker.get_text());
     all_ = {};
     return texts;
 }
@@ -64,7 +64,7 @@ bool PendingGather::advance(bool waits) {
             if (!waits && !ranks_.do_has_bytes(next)) return false;
             collected_.push_back(ranks_.do_receive(next));
         }
-        core::Packer packer;
+        Packer packer;
         for (const std::string& bytes : std::exchange(collected_, {})) packer.put_text(bytes);
         all_ = packer.take();
     } else {
@@ -85,4 +85,4 @@ void PendingGather::pass_on() {
     }
 }
 
-}  // namespace lamina
+}  // namespace lamina::core

@@ -1,18 +1,13 @@
-#include <lamina/suggestion.hpp>
+#include "core/suggestion.hpp"
 
 #include <algorithm>
 #include <utility>
 #include <vector>
 
+#include "core/edit_distance.hpp"
 #include "core/text.hpp"
 
-namespace lamina {
-
-std::string plain_word(std::string_view word) {
-    std::string letters = core::lower_case(std::string(word));
-    std::erase_if(letters, [](char c) { return c == '-' || c == '_' || c == ' '; });
-    return letters;
-}
+namespace lamina::core {
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     // Rows of the table of distances between the beginnings of both words: the last but one, the last, and this one.
@@ -32,6 +27,16 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     return row[b.size()];
 }
 
+}  // namespace lamina::core
+
+namespace lamina {
+
+std::string plain_word(std::string_view word) {
+    std::string letters = core::lower_case(std::string(word));
+    std::erase_if(letters, [](char c) { return c == '-' || c == '_' || c == ' '; });
+    return letters;
+}
+
 std::string closest_word(std::string_view word, std::span<const std::string> known) {
     const std::string meant = plain_word(word);
     constexpr std::size_t max_length = 64;  // longer words are no misspelt names
@@ -40,7 +45,7 @@ std::string closest_word(std::string_view word, std::span<const std::string> kno
     std::size_t least = (meant.size() + 2) / 3 + 1;
     for (const std::string& candidate : known) {
         const std::string letters = plain_word(candidate);
-        const std::size_t distance = edit_distance(meant, letters);
+        const std::size_t distance = core::edit_distance(meant, letters);
         // A word of which no letter is left is another word.
         if (distance >= std::min(least, std::max(meant.size(), letters.size()))) continue;
         least = distance;

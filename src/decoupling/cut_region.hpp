@@ -10,11 +10,12 @@
 
 #include <lamina/decoupling.hpp>
 #include <lamina/export.hpp>
-#include <lamina/ranks.hpp>
 #include <lamina/sizing.hpp>
 
+#include "core/connected_ranks.hpp"
 #include "decoupling/cut_to_size.hpp"
 #include "decoupling/lines.hpp"
+#include "decoupling/subdomain.hpp"
 
 namespace lamina::decoupling {
 
@@ -58,7 +59,8 @@ struct BesideCuts {
 /// the work among themselves, and each divides those lines alone that it needs for its share; throws MeshError where
 /// another process would cut another region. BesideCuts::make finds the vertices of trapezoids in Lines::gathered(): these
 /// have their ids before anything is cut. EstimatedBorder::kept tells which pieces a process may have made with it.
-LAMINA_EXPORT CutRegion cut_region(const OuterRegion& region, Ranks* ranks = nullptr, const BesideCuts& beside = {});
+LAMINA_EXPORT CutRegion cut_region(const OuterRegion& region, core::ConnectedRanks* ranks = nullptr,
+                                   const BesideCuts& beside = {});
 
 /// Makes a subdomain from its border. Divides its lines, and estimates its work unless that is known: null. `size` is the
 /// size field of the region.
@@ -75,6 +77,6 @@ void require_same_hashes(std::span<const std::string> told, std::size_t bytes_of
 
 /// Collective: throws MeshError on rank 0 where another process has other borders. Its numbers would mean other vertices,
 /// which no check of a piece by itself can see.
-LAMINA_EXPORT void require_same_borders(const CutRegion& cut, Ranks& ranks);
+LAMINA_EXPORT void require_same_borders(const CutRegion& cut, core::ConnectedRanks& ranks);
 
 }  // namespace lamina::decoupling

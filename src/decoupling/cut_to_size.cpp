@@ -170,7 +170,7 @@ void cut_dealt(Lines& lines, std::vector<Part> parts, unsigned processes, Bisect
 class CutsAtOnce {
 public:
     /// The others are the regions without holes, in their order.
-    CutsAtOnce(const SimpleRegions& others, const SizeField& size, double pieces_target, Ranks& ranks,
+    CutsAtOnce(const SimpleRegions& others, const SizeField& size, double pieces_target, core::ConnectedRanks& ranks,
                const MakeTrapezoid& make)
         : others_(others),
           size_(size),
@@ -211,7 +211,7 @@ private:
     const SimpleRegions& others_;
     const SizeField& size_;
     double pieces_target_;
-    Ranks& ranks_;
+    core::ConnectedRanks& ranks_;
     const MakeTrapezoid& make_;
     unsigned cutters_;
     std::vector<std::size_t> shares_;  ///< the regions that each process searches, from one of these to the next
@@ -238,7 +238,7 @@ private:
     /// Tells all processes these bytes, or that this one has failed, and makes pieces until all have told theirs. Throws
     /// where one has failed.
     std::vector<std::string> tell_all(Lines& lines, const std::string& bytes, std::exception_ptr failure) {
-        const std::unique_ptr<PendingGather> pending = ranks_.start_all_gather(failure ? std::string() : bytes);
+        const std::unique_ptr<core::PendingGather> pending = ranks_.start_all_gather(failure ? std::string() : bytes);
         if (!failure) failure = failure_of([&] { make_pieces(lines, *pending); });
         std::vector<std::string> told = pending->take();
         if (failure) std::rethrow_exception(failure);
@@ -344,7 +344,7 @@ private:
         }
     }
     /// Makes kept pieces, in their order, until all processes have told what they have found.
-    void make_pieces(Lines& lines, PendingGather& pending) const {
+    void make_pieces(Lines& lines, core::PendingGather& pending) const {
         const std::size_t first = begin(ranks_.rank());
         std::atomic<std::size_t> next = 0;
         core::parallel_for(thread_count(), 1, [&](std::size_t, std::size_t) {
@@ -420,7 +420,8 @@ std::vector<EstimatedBorder> cut_to_size(Lines& lines, UncutRegions regions, con
 }
 
 std::vector<EstimatedBorder> cut_to_size_together(Lines& lines, UncutRegions regions, const SizeField& size,
-                                                  double pieces_target, Ranks& ranks, const MakeTrapezoid& make) {
+                                                  double pieces_target, core::ConnectedRanks& ranks,
+                                                  const MakeTrapezoid& make) {
     // The order of all cuts is that of cut_to_size().
     const SimpleRegions others(regions);
     Bisection bisection(size, pieces_target);

@@ -7,10 +7,9 @@
 #include <memory>
 #include <vector>
 
-#include <lamina/decoupling.hpp>
-#include <lamina/ranks.hpp>
 #include <lamina/sizing.hpp>
 
+#include "core/connected_ranks.hpp"
 #include "decoupling/border_triangulation.hpp"
 #include "decoupling/line_border.hpp"
 #include "decoupling/lines.hpp"
@@ -51,6 +50,7 @@ std::vector<EstimatedBorder> cut_to_size(Lines& lines, UncutRegions regions, con
 /// regions round the bodies are cut by the first processes; the others call `make`, if it is given, until this is done, for
 /// pieces that they keep. Precondition: all other arguments are the same everywhere.
 std::vector<EstimatedBorder> cut_to_size_together(Lines& lines, UncutRegions regions, const SizeField& size,
-                                                  double pieces_target, Ranks& ranks, const MakeTrapezoid& make);
+                                                  double pieces_target, core::ConnectedRanks& ranks,
+                                                  const MakeTrapezoid& make);
 
 }  // namespace lamina::decoupling

@@ -1,6 +1,6 @@
 // The outer region becomes subdomains: near-body box and rings of trapezoids first, then cuts of all subdomains that
 // are still too large. Source: J. K. Pardue, thesis (2015), chapter 5.
-#include <lamina/decoupling.hpp>
+#include "decoupling/subdomain.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -67,7 +67,7 @@ void number_lines(Lines& lines, const SizeField& size) {
         if (!lines.is_loop(line)) lines.number(line, lines.divide(line, size));
 }
 
-UncutSkeleton draw_skeleton(const OuterRegion& region, const SizeField& size, Ranks* ranks) {
+UncutSkeleton draw_skeleton(const OuterRegion& region, const SizeField& size, core::ConnectedRanks* ranks) {
     const FarField& far_field = region.far_field;
     const bool is_box = far_field.shape == FarFieldShape::box;
     const Box outermost = inscribed_box(far_field);
@@ -100,7 +100,7 @@ UncutSkeleton draw_skeleton(const OuterRegion& region, const SizeField& size, Ra
 
 }  // namespace
 
-CutRegion cut_region(const OuterRegion& region, Ranks* ranks, const BesideCuts& beside) {
+CutRegion cut_region(const OuterRegion& region, core::ConnectedRanks* ranks, const BesideCuts& beside) {
     if (ranks != nullptr && ranks->size() == 1) ranks = nullptr;
     const SizeField& size = region.size;
     auto [skeleton, far_field_edges, far_field_lines] = draw_skeleton(region, size, ranks);
@@ -146,12 +146,6 @@ Subdomain make_subdomain(const LineBorder& line_border, const WorkEstimate* know
     return subdomain;
 }
 
-}  // namespace lamina::decoupling
-
-namespace lamina {
-
-using namespace decoupling;
-
 double estimate_triangles(std::span<const Point> points, std::span<const std::vector<VertexId>> borders,
                           const SizeField& size, const FarField& far_field) {
     near_body_box(box_round(points, borders), inscribed_box(far_field), far_field);  // throws where there is no room
@@ -181,4 +175,4 @@ Decoupling decouple(std::span<const Point> points, std::span<const std::vector<V
     return result;
 }
 
-}  // namespace lamina
+}  // namespace lamina::decoupling

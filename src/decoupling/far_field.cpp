@@ -125,12 +125,6 @@ std::optional<Box> near_body_box(const Box& bodies, const Box& outermost, const 
     return Box{bodies.lower - Point{margin, margin}, bodies.upper + Point{margin, margin}};
 }
 
-}  // namespace lamina::decoupling
-
-namespace lamina {
-
-using namespace decoupling;
-
 Box FarField::box() const {
     if (shape != FarFieldShape::outline) return {center - Point{radius, radius}, center + Point{radius, radius}};
     Box box;
@@ -154,4 +148,4 @@ FarField place_far_field(const Box& bodies, double chord, const FarFieldOptions&
     return far_field;
 }
 
-}  // namespace lamina
+}  // namespace lamina::decoupling

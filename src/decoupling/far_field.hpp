@@ -1,12 +1,32 @@
-// Boxes inside the far field, for the rings of the decoupling.
+// The far field round a configuration, and boxes inside it, for the rings of the decoupling.
 #pragma once
 
+#include <cmath>
 #include <optional>
+#include <vector>
 
 #include <lamina/decoupling.hpp>
 #include <lamina/export.hpp>
+#include <lamina/point.hpp>
 
 namespace lamina::decoupling {
+
+/// The far field round a configuration, in units of the input.
+struct FarField {
+    FarFieldShape shape = FarFieldShape::box;  ///< which of the other members count
+    Point center;                              ///< middle of the configuration
+    double radius = 0;                         ///< half-width of the box or radius of the circle
+    std::vector<Point> outline{};              ///< corners of the polygon
+    double floor = -HUGE_VAL;                  ///< y of the slip wall below: ground, or the floor of a tunnel
+    double ceiling = HUGE_VAL;                 ///< y of the slip wall above: the ceiling of a tunnel
+
+    /// Returns the box round the far field.
+    LAMINA_EXPORT Box box() const;
+};
+
+/// Places the far field round the box of all bodies; `chord` is the reference chord. Throws OptionError where an option
+/// is out of range, where an outline does not enclose the middle of that box, and where a tunnel does not enclose it.
+LAMINA_EXPORT FarField place_far_field(const Box& bodies, double chord, const FarFieldOptions& options = {});
 
 /// Returns the outermost box of the rings: the far field itself where it is a box, otherwise a square about the centre
 /// of 0.8 times the size of the largest one that fits in.

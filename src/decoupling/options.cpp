@@ -1,5 +1,9 @@
-// The table of the options of the far field, the checks of those of the decoupling, and the text of outlines.
+// The table of the options of the far field, and the checks of those of the decoupling.
 #include <lamina/decoupling.hpp>
+
+#include <span>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -9,6 +13,28 @@
 #include "core/text.hpp"
 
 namespace lamina {
+
+namespace {
+
+/// Reads an outline "X0,Y0,X1,Y1,..." of three corners or more. Throws UsageError with the bare reason.
+std::vector<Point> parse_outline(const std::string& text) {
+    const std::vector<double> numbers = core::parse_numbers(text, ',');
+    if (numbers.size() < 6 || numbers.size() % 2 != 0)
+        throw UsageError("'" + text + "': an outline is X0,Y0,X1,Y1,..., three corners or more");
+    std::vector<Point> corners;
+    corners.reserve(numbers.size() / 2);
+    for (std::size_t i = 0; i < numbers.size(); i += 2) corners.push_back({numbers[i], numbers[i + 1]});
+    return corners;
+}
+
+/// Returns the text that parse_outline() reads back.
+std::string outline_text(std::span<const Point> corners) {
+    std::string text;
+    for (const Point p : corners) text += core::concat(text.empty() ? "" : ",", p.x, ",", p.y);
+    return text;
+}
+
+}  // namespace
 
 template <>
 OptionTable<FarFieldOptions> option_rows() {
@@ -77,22 +103,6 @@ void validate(const FarFieldOptions& options) {
 
 void validate(const DecouplingOptions& options) {
     require_in_range(numbers_from_to(100, 1e9), options.pieces_target, "pieces_target");
-}
-
-std::vector<Point> parse_outline(const std::string& text) {
-    const std::vector<double> numbers = core::parse_numbers(text, ',');
-    if (numbers.size() < 6 || numbers.size() % 2 != 0)
-        throw UsageError("'" + text + "': an outline is X0,Y0,X1,Y1,..., three corners or more");
-    std::vector<Point> corners;
-    corners.reserve(numbers.size() / 2);
-    for (std::size_t i = 0; i < numbers.size(); i += 2) corners.push_back({numbers[i], numbers[i + 1]});
-    return corners;
-}
-
-std::string outline_text(std::span<const Point> corners) {
-    std::string text;
-    for (const Point p : corners) text += core::concat(text.empty() ? "" : ",", p.x, ",", p.y);
-    return text;
 }
 
 }  // namespace lamina

@@ -27,16 +27,10 @@ std::vector<Refinement> refine_all(std::span<const Subdomain> subdomains, core::
     return refinements;
 }
 
-}  // namespace lamina::decoupling
-
-namespace lamina {
-
-using namespace decoupling;
-
 Refinement refine(const Subdomain& subdomain) {
     return refine(subdomain.points, subdomain.segments, subdomain.size, subdomain.refine);
 }
 
 std::vector<Refinement> refine(std::span<const Subdomain> subdomains) { return refine_all(subdomains, nullptr, 0); }
 
-}  // namespace lamina
+}  // namespace lamina::decoupling

@@ -5,9 +5,8 @@
 #include <span>
 #include <vector>
 
-#include <lamina/decoupling.hpp>
-
 #include "core/busy_times.hpp"
+#include "decoupling/subdomain.hpp"
 
 namespace lamina::decoupling {
 

@@ -38,7 +38,7 @@ void require_same_hashes(std::span<const std::string> told, std::size_t bytes_of
                             rank));
 }
 
-void require_same_borders(const CutRegion& cut, Ranks& ranks) {
+void require_same_borders(const CutRegion& cut, core::ConnectedRanks& ranks) {
     const Lines& lines = cut.lines;
     core::WordHash hash;
     hash.add(std::uint64_t{lines.vertices()});

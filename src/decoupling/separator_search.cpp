@@ -18,6 +18,7 @@
 #include "core/parallel.hpp"
 #include "core/segments.hpp"
 #include "decoupling/separators.hpp"
+#include "sizing/requests.hpp"
 
 namespace lamina::decoupling {
 
@@ -154,7 +155,7 @@ private:
         // A joining line goes from where the border is finest to where it is coarse: rather to the outer border than to
         // another body.
         if (joins) return CandidateLine{from, to, cosine + std::min(h_from, h_to) / std::max(h_from, h_to)};
-        const double segments = distance(p, q) / (frozen_share * std::sqrt(h_from * h_to));
+        const double segments = distance(p, q) / (sizing::frozen_share * std::sqrt(h_from * h_to));
         return CandidateLine{from, to, std::abs(2 * share - 1) + 0.5 * cosine + 0.2 * segments / std::sqrt(triangles)};
     }
 

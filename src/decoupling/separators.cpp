@@ -8,6 +8,7 @@
 
 #include "core/reproducible_math.hpp"
 #include "core/rounding.hpp"
+#include "sizing/requests.hpp"
 
 namespace lamina::decoupling {
 
@@ -34,7 +35,7 @@ std::vector<Point> equidistribute(const Curve& curve, double total, const SizeFi
         integral.push_back(integral.back() + 0.5 * (s - arc_length.back()) * (last_inverse + inverse));
         arc_length.push_back(s);
     }
-    const auto n = std::max(min_segments, static_cast<std::size_t>(std::ceil(integral.back() / frozen_share)));
+    const auto n = std::max(min_segments, static_cast<std::size_t>(std::ceil(integral.back() / sizing::frozen_share)));
     std::vector<Point> points;
     points.reserve(n - 1);
     std::size_t i = 0;

@@ -3,7 +3,6 @@
 
 #include <vector>
 
-#include <lamina/decoupling.hpp>
 #include <lamina/point.hpp>
 #include <lamina/sizing.hpp>
 

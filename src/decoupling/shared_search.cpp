@@ -119,7 +119,7 @@ unsigned SearchDealer::deal(std::size_t vertices, unsigned process) {
 }
 
 std::vector<SearchResult> search_together(Lines& lines, std::span<const DealtBorder> borders, const SizeField& size,
-                                          double pieces_target, Ranks& ranks) {
+                                          double pieces_target, core::ConnectedRanks& ranks) {
     std::vector<std::size_t> own;
     for (std::size_t i = 0; i < borders.size(); ++i)
         if (borders[i].process == ranks.rank()) own.push_back(i);
@@ -161,7 +161,7 @@ std::vector<std::size_t> region_shares(std::size_t regions, unsigned processes) 
     return shares;
 }
 
-void number_together(Lines& lines, std::span<const LineRun> runs, const SizeField& size, Ranks& ranks) {
+void number_together(Lines& lines, std::span<const LineRun> runs, const SizeField& size, core::ConnectedRanks& ranks) {
     std::vector<std::uint32_t> own;
     for (const LineRun& run : runs)
         for (std::uint32_t line = run.begin; run.process == ranks.rank() && line < run.end; ++line) own.push_back(line);

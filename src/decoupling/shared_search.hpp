@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include <lamina/ranks.hpp>
 #include <lamina/sizing.hpp>
 
+#include "core/connected_ranks.hpp"
 #include "core/difference_packing.hpp"
 #include "core/packing.hpp"
 #include "decoupling/line_border.hpp"
@@ -96,7 +96,7 @@ private:
 /// count no more. Each process searches its own borders. Precondition: all arguments are the same everywhere, but for
 /// borders of others and for the lines that are divided.
 std::vector<SearchResult> search_together(Lines& lines, std::span<const DealtBorder> borders, const SizeField& size,
-                                          double pieces_target, Ranks& ranks);
+                                          double pieces_target, core::ConnectedRanks& ranks);
 
 /// Returns how many processes, the first ones, cut the regions round the bodies where there are so many others.
 unsigned cutting_processes(std::size_t others, unsigned processes);
@@ -107,6 +107,6 @@ std::vector<std::size_t> region_shares(std::size_t regions, unsigned processes);
 
 /// Collective: divides the lines of these runs, which are all but loops in ascending order, each by its process, and
 /// numbers their vertices. Throws MeshError where another process has other lines.
-void number_together(Lines& lines, std::span<const LineRun> runs, const SizeField& size, Ranks& ranks);
+void number_together(Lines& lines, std::span<const LineRun> runs, const SizeField& size, core::ConnectedRanks& ranks);
 
 }  // namespace lamina::decoupling

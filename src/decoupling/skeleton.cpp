@@ -95,7 +95,7 @@ std::vector<LineBorder> Skeleton::trace() {
     return borders;
 }
 
-void Skeleton::number_together(const SizeField& size, Ranks& ranks) {
+void Skeleton::number_together(const SizeField& size, core::ConnectedRanks& ranks) {
     rings.share(region_shares(rings.size(), ranks.size()));
     std::vector<LineRun> runs(rings.runs().begin(), rings.runs().end());
     if (rings.size() == 0)  // lines round the domain

@@ -6,10 +6,10 @@
 #include <unordered_map>
 #include <vector>
 
-#include <lamina/decoupling.hpp>
-#include <lamina/ranks.hpp>
 #include <lamina/sizing.hpp>
 
+#include "core/connected_ranks.hpp"
+#include "decoupling/far_field.hpp"
 #include "decoupling/line_border.hpp"
 #include "decoupling/lines.hpp"
 #include "decoupling/ring_regions.hpp"
@@ -48,7 +48,7 @@ public:
     std::vector<LineBorder> trace();
     /// Collective: numbers the vertices inside all straight lines. A process divides the lines of those trapezoids
     /// that it will search, so far as no process before it does.
-    void number_together(const SizeField& size, Ranks& ranks);
+    void number_together(const SizeField& size, core::ConnectedRanks& ranks);
 
 private:
     /// A line as an edge between corners, in one direction: a whole straight line, or a segment of a closed one.

@@ -74,4 +74,10 @@ LAMINA_EXPORT LayerPoint flat_plate(double s, double viscosity, bool turbulent);
 LAMINA_EXPORT double wake_thickness(double thickness_upper, double thickness_lower, double momentum_total,
                                     double distance);
 
+/// Returns whether flow round sections is taken for laminar: below a Reynolds number of 1e4.
+inline bool is_laminar(const ReferenceConditions& conditions) {
+    constexpr double laminar_reynolds = 1e4;
+    return conditions.reynolds && *conditions.reynolds < laminar_reynolds;
+}
+
 }  // namespace lamina::flow

@@ -6,6 +6,7 @@
 #include <lamina/flow.hpp>
 
 #include "core/reproducible_math.hpp"
+#include "flow/potential.hpp"
 
 namespace lamina::flow {
 
@@ -30,17 +31,6 @@ double lift_on(const ElementFlow& element, double alpha_deg) {
 
 }  // namespace
 
-}  // namespace lamina::flow
-
-namespace lamina {
-
-using namespace flow;
-
-double critical_pressure_coefficient(double mach) {
-    const double ratio = (1 + 0.2 * mach * mach) / 1.2;
-    return (core::pow_reproducible(ratio, 3.5) - 1) / (0.7 * mach * mach);
-}
-
 double compressed_pressure_coefficient(double incompressible, double mach) {
     const double b = std::sqrt(1 - mach * mach), divisor = b + mach * mach / (1 + b) * incompressible / 2;
     return divisor > 0 ? incompressible / divisor : -HUGE_VAL;
@@ -57,6 +47,17 @@ double supersonic_length(const Flow& flow, double mach) {
                 if (compressed_pressure_coefficient(middle, mach) < critical) length += b.s - a.s;
             }
     return length / flow.chord;
+}
+
+}  // namespace lamina::flow
+
+namespace lamina {
+
+using namespace flow;
+
+double critical_pressure_coefficient(double mach) {
+    const double ratio = (1 + 0.2 * mach * mach) / 1.2;
+    return (core::pow_reproducible(ratio, 3.5) - 1) / (0.7 * mach * mach);
 }
 
 Flow with_compressed_pressures(Flow flow, double mach) {

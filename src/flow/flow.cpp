@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -14,8 +15,10 @@
 #include "flow/boundary_layer.hpp"
 #include "flow/contour.hpp"
 #include "flow/panel_system.hpp"
+#include "flow/potential.hpp"
 #include "flow/separation.hpp"
 #include "flow/sides.hpp"
+#include "geometry/sharp_corner.hpp"
 
 namespace lamina::flow {
 
@@ -71,10 +74,11 @@ std::optional<Defect> find_leak(std::span<const PanelSheet> sheets, double alpha
 }
 
 std::optional<Defect> add_elements(Flow& flow) {
-    for (std::size_t e = 0; e < flow.sheets.size(); ++e) {
-        std::optional<ElementFlow> sides = make_sides(flow.sheets[e]);
-        if (!sides) return Defect{e, flow.sheets[e].nodes.front(), 0, "the flow arrives at its trailing edge alone"};
-        sides->lift = lift_of_pressures(flow.sheets[e], flow.alpha_deg) / flow.chord;
+    for (std::size_t e = 0; e < flow.panels->sheets.size(); ++e) {
+        const PanelSheet& sheet = flow.panels->sheets[e];
+        std::optional<ElementFlow> sides = make_sides(sheet);
+        if (!sides) return Defect{e, sheet.nodes.front(), 0, "the flow arrives at its trailing edge alone"};
+        sides->lift = lift_of_pressures(sheet, flow.alpha_deg) / flow.chord;
         flow.elements.push_back(std::move(*sides));
     }
     return std::nullopt;
@@ -83,8 +87,7 @@ std::optional<Defect> add_elements(Flow& flow) {
 /// Makes the flow an estimate, and says why.
 void fall_back(Flow& flow, std::span<const Contour> contours, const Geometry& geometry, const Defect& defect) {
     flow.estimated = true;
-    flow.sheets.clear();
-    flow.sheets_without_lift.clear();
+    flow.panels.reset();
     flow.elements.clear();
     for (const Contour& contour : contours) flow.elements.push_back(make_flat_plates(contour.nodes));
     const std::string& name = geometry.elements[defect.element].name;
@@ -105,7 +108,7 @@ std::vector<EdgePoint> edge_speeds(const std::vector<FlowPoint>& side) {
     for (const FlowPoint& p : side) edge.push_back({p.s, p.speed});
     for (std::size_t i = 1; i + 1 < side.size(); ++i) {
         const double turning = core::angle_between(side[i].at - side[i - 1].at, side[i + 1].at - side[i].at);
-        if (std::abs(core::degrees(turning)) < sharp_corner_deg) continue;
+        if (std::abs(core::degrees(turning)) < geometry::sharp_corner_deg) continue;
         std::size_t first = i, last = i;
         while (first > 0 && side[i].s - side[first].s < reach) --first;
         while (last + 1 < side.size() && side[last].s - side[i].s < reach) ++last;
@@ -130,6 +133,21 @@ void add_boundary_layer(std::vector<FlowPoint>& side, double viscosity, bool tur
 
 }  // namespace
 
+Flow with_share_of_lift(Flow flow, double share) {
+    const auto blend = [&](double& with, double without) { with = without + share * (with - without); };
+    if (!flow.panels) return flow;
+    PanelSolution panels = *flow.panels;
+    for (std::size_t e = 0; e < panels.sheets.size(); ++e) {
+        PanelSheet& sheet = panels.sheets[e];
+        const PanelSheet& without = panels.without_lift[e];
+        for (std::size_t i = 0; i < sheet.strengths.size(); ++i) blend(sheet.strengths[i], without.strengths[i]);
+        blend(sheet.base_strength, without.base_strength);
+        blend(sheet.base_source, without.base_source);
+    }
+    flow.panels = std::make_shared<const PanelSolution>(std::move(panels));
+    return flow;
+}
+
 }  // namespace lamina::flow
 
 namespace lamina {
@@ -142,15 +160,13 @@ Flow solve_flow(const Geometry& geometry, const FlowConditions& conditions) {
     flow.alpha_deg = reference.alpha_deg;
     flow.chord = reference.chord;
     const std::vector<Contour> contours = make_contours(geometry);
-    PanelSolution solution = solve_panels(contours, flow.alpha_deg);
-    flow.sheets = std::move(solution.sheets);
-    flow.sheets_without_lift = std::move(solution.without_lift);
-    std::optional<Defect> defect = find_wild_speed(flow.sheets);
-    if (!defect) defect = find_leak(flow.sheets, flow.alpha_deg);
+    flow.panels = std::make_shared<const PanelSolution>(solve_panels(contours, flow.alpha_deg));
+    std::optional<Defect> defect = find_wild_speed(flow.panels->sheets);
+    if (!defect) defect = find_leak(flow.panels->sheets, flow.alpha_deg);
     if (!defect) defect = add_elements(flow);
     if (defect) fall_back(flow, contours, geometry, *defect);
     double total = 0;
-    for (const PanelSheet& sheet : flow.sheets) total += circulation(sheet);
+    for (const PanelSheet& sheet : sheets_of(flow)) total += circulation(sheet);
     flow.lift = -2 * total / flow.chord;
     for (std::size_t e = 0; e < flow.elements.size(); ++e) {
         ElementFlow& element = flow.elements[e];
@@ -161,18 +177,6 @@ Flow solve_flow(const Geometry& geometry, const FlowConditions& conditions) {
     }
     if (std::optional<Warning> wide; reference.reynolds && (wide = find_wide_wake(flow)))
         flow.warnings.push_back(std::move(*wide));
-    return flow;
-}
-
-Flow with_share_of_lift(Flow flow, double share) {
-    const auto blend = [&](double& with, double without) { with = without + share * (with - without); };
-    for (std::size_t e = 0; e < flow.sheets.size(); ++e) {
-        PanelSheet& sheet = flow.sheets[e];
-        const PanelSheet& without = flow.sheets_without_lift[e];
-        for (std::size_t i = 0; i < sheet.strengths.size(); ++i) blend(sheet.strengths[i], without.strengths[i]);
-        blend(sheet.base_strength, without.base_strength);
-        blend(sheet.base_source, without.base_source);
-    }
     return flow;
 }
 
@@ -198,6 +202,6 @@ double largest_skin_friction(const ElementFlow& element) {
     return std::max(largest_on_walls(element, &FlowPoint::skin_friction), rise_at_corners * at_corners);
 }
 
-Point flow_velocity(const Flow& flow, Point p) { return SheetVelocity(flow.sheets, flow.alpha_deg)(p); }
+Point flow_velocity(const Flow& flow, Point p) { return SheetVelocity(sheets_of(flow), flow.alpha_deg)(p); }
 
 }  // namespace lamina

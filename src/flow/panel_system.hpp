@@ -14,11 +14,28 @@ namespace lamina::flow {
 /// Returns the unit vector in a direction given in degrees.
 Point free_stream(double alpha_deg);
 
-/// The sheets of all contours in the free stream: with flow that leaves each trailing edge smoothly, and with flow that
+/// The vortex sheet on the panels of one element.
+struct PanelSheet {
+    /// Ends of the panels, counter-clockwise from the trailing edge to the trailing edge: the last one equals the first
+    /// one, or a straight base without a wall condition joins them.
+    std::vector<Point> nodes;
+    /// Strength of the sheet per node, linear between them. Since the fluid inside the body is at rest, it is the
+    /// velocity along the outline outside of it, counter-clockwise, as a multiple of the free stream's.
+    std::vector<double> strengths;
+    double base_strength = 0;  ///< constant strength of the vortex sheet on the base
+    double base_source = 0;    ///< constant strength of the source sheet on the base, which feeds the wake
+};
+
+/// The sheets of all contours in the free stream (Flow::panels): with flow that leaves each trailing edge smoothly, and with flow that
 /// has no circulation round any of them.
 struct PanelSolution {
     std::vector<PanelSheet> sheets, without_lift;
 };
+
+/// Returns the sheets of a flow; none where it is an estimate.
+inline std::span<const PanelSheet> sheets_of(const Flow& flow) {
+    return flow.panels ? std::span<const PanelSheet>(flow.panels->sheets) : std::span<const PanelSheet>{};
+}
 
 /// Returns the sheets of all contours. Their strengths are not finite where the system is singular.
 PanelSolution solve_panels(std::span<const Contour> contours, double alpha_deg);

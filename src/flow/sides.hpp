@@ -6,6 +6,8 @@
 
 #include <lamina/flow.hpp>
 
+#include "flow/panel_system.hpp"
+
 namespace lamina::flow {
 
 /// Returns the sides of an element without boundary layers. Of several stagnation points at which the flow arrives the

@@ -111,15 +111,15 @@ namespace lamina {
 using namespace flow;
 
 std::vector<Point> streamline(const Flow& flow, Point from, double length, const StreamlineOptions& options) {
-    const Walls walls(flow.sheets);
+    const Walls walls(sheets_of(flow));
     std::vector<Point> points{from};
     double done = 0;
-    if (const std::optional<Point> behind = leave_trailing_edge(flow.sheets, from); behind && length > 0) {
+    if (const std::optional<Point> behind = leave_trailing_edge(sheets_of(flow), from); behind && length > 0) {
         done = distance(from, *behind);
         points.push_back(*behind);
     }
     if (!(done < length)) return points;
-    const SheetVelocity velocity(flow.sheets, flow.alpha_deg);
+    const SheetVelocity velocity(sheets_of(flow), flow.alpha_deg);
     FlowingPoint last{points.back(), velocity(points.back())};
     const double longest = options.max_step * flow.chord, shortest = 1e-6 * longest;
     double h = 0.1 * longest;

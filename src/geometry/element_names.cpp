@@ -1,4 +1,5 @@
 #include "geometry/element_names.hpp"
+#include "core/marker_names.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -41,7 +42,7 @@ std::vector<std::string> names_by_file(const std::vector<Element>& elements) {
         if (is_unique(stems[i])) continue;
         for (;;) {
             const std::string suffix = fmt::format("_{}", ++tried[stems[i]]);
-            names[i] = stems[i].substr(0, max_marker_name - suffix.size()) + suffix;
+            names[i] = stems[i].substr(0, core::max_marker_name - suffix.size()) + suffix;
             if (used.insert(names[i]).second) break;
         }
     }
@@ -65,17 +66,17 @@ std::vector<std::string> wanted_names(const std::vector<Element>& elements, cons
 }  // namespace
 
 void name_elements(std::vector<Element>& elements, const GeometryOptions& options) {
-    std::vector<NamedMarker> markers;
+    std::vector<core::NamedMarker> markers;
     for (std::string& name : wanted_names(elements, options.names))
         markers.push_back({std::move(name), MarkerKind::wall});
-    markers.push_back({std::string(far_field_name), MarkerKind::far_field});
-    std::vector<std::string> names = legal_marker_names(markers);
+    markers.push_back({std::string(core::far_field_name), MarkerKind::far_field});
+    std::vector<std::string> names = core::legal_marker_names(markers);
     for (std::size_t i = 0; i < elements.size(); ++i) {
         Element& element = elements[i];
         element.given_name = markers[i].name;
         element.name = std::move(names[i]);
         if (element.name != element.given_name)
-            element.warnings.push_back(renamed_marker_warning(markers[i], element.name));
+            element.warnings.push_back(core::renamed_marker_warning(markers[i], element.name));
     }
 }
 

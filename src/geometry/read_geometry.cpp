@@ -11,8 +11,8 @@
 #include <lamina/files.hpp>
 #include <lamina/geometry.hpp>
 #include <lamina/predicates.hpp>
-#include <lamina/suggestion.hpp>
 
+#include "core/suggestion.hpp"
 #include "core/text.hpp"
 #include "geometry/characters.hpp"
 #include "geometry/element_names.hpp"
@@ -107,10 +107,6 @@ std::string contents_of(const std::string& input) {
 namespace lamina {
 
 using namespace geometry;
-
-std::vector<Element> read_airfoil(const std::filesystem::path& file) {
-    return make_geometry(parse_airfoil(read_file(file, max_text_bytes), file.string()), {}).elements;
-}
 
 std::vector<Element> read_inputs(std::span<const std::string> inputs, const GeometryOptions& options) {
     std::vector<Element> elements;

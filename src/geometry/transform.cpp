@@ -8,15 +8,17 @@
 
 #include <fmt/format.h>
 
-#include <lamina/option_builders.hpp>
-
 #include "core/angles.hpp"
+#include "core/option_builders.hpp"
 #include "geometry/plain_flap.hpp"
 #include "geometry/source_point.hpp"
 
 namespace lamina::geometry {
 
 namespace {
+
+/// The name that stands for all elements in a transformation.
+constexpr const char* every_element = "all";
 
 /// Moves the points of an element and the places of its warnings.
 template <class Map>

@@ -25,6 +25,7 @@
 
 #include <lamina/error.hpp>
 
+#include "core/marker_names.hpp"
 #include "io/cgns_lock.hpp"
 #include "io/formats.hpp"
 #include "io/mesh_parts.hpp"
@@ -238,7 +239,7 @@ private:
 
     void make_markers() {
         for (BarSection& section : bar_sections_) {
-            Marker rest{section.name, kind_of_name(section.name), {}};
+            Marker rest{section.name, core::kind_of_name(section.name), {}};
             for (std::size_t i = 0; i < section.bars.size(); ++i) {
                 const int c = section.condition[i];
                 (c == 0 ? rest : conditions_[static_cast<std::size_t>(c - 1)]).edges.push_back(section.bars[i]);

@@ -21,6 +21,7 @@
 #include <lamina/error.hpp>
 
 #include "core/atomic_file.hpp"
+#include "core/marker_names.hpp"
 #include "core/parallel.hpp"
 #include "io/cgns_lock.hpp"
 #include "io/formats.hpp"
@@ -171,7 +172,7 @@ std::size_t bytes_needed(const MeshView& mesh, CgnsVariant variant) {
 
 /// Throws UsageError for meshes that a CGNS file cannot hold.
 void require_fit(const MeshView& mesh, const fs::path& file) {
-    require_marker_names(mesh.markers, file, "CGNS", "/", max_marker_name);
+    require_marker_names(mesh.markers, file, "CGNS", "/", core::max_marker_name);
     constexpr std::array<std::string_view, 4> other_nodes{"Zone", "ZoneType", "ZoneBC", "GridCoordinates"};
     for (const Marker& marker : mesh.markers)
         if (std::find(other_nodes.begin(), other_nodes.end(), marker.name) != other_nodes.end())

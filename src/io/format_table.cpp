@@ -8,10 +8,10 @@
 
 #include <lamina/error.hpp>
 #include <lamina/files.hpp>
-#include <lamina/suggestion.hpp>
 
 #include "core/atomic_file.hpp"
 #include "core/file_name.hpp"
+#include "core/suggestion.hpp"
 #include "core/text.hpp"
 #include "io/formats.hpp"
 

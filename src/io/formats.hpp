@@ -15,9 +15,11 @@
 #include <lamina/mesh_sink.hpp>
 #include <lamina/solution.hpp>
 
+#include "core/connected_ranks.hpp"
 #include "io/field_request.hpp"
 #include "io/mesh_layout.hpp"
 #include "io/sizes.hpp"
+#include "mesh/shared_parts.hpp"
 
 namespace lamina::io {
 
@@ -49,7 +51,8 @@ struct FormatRow {
     /// Returns how the file is written part by part. Null: the format is written as a whole.
     std::unique_ptr<MeshLayout> (*layout)(const std::filesystem::path&) = nullptr;
     /// Collective: writes what each process holds. Null: as `layout` says.
-    void (*write_shared)(const MeshParts&, const MeshFrame&, Ranks&, const std::filesystem::path&) = nullptr;
+    void (*write_shared)(const mesh::MeshParts&, const MeshFrame&, core::ConnectedRanks&,
+                         const std::filesystem::path&) = nullptr;
     bool takes_parts = false;  ///< whether WriteOptions::parts counts
     bool quads = true;         ///< whether the format holds quadrilaterals, too
     bool one_stream = false;   ///< whether standard input and standard output can carry it
@@ -95,7 +98,8 @@ void write_vtu_part(const MeshView& part, std::span<const VertexId> vertices, st
 std::vector<std::filesystem::path> pvtu_files(const std::filesystem::path& file, std::size_t parts);
 void write_pvtu(const MeshView& mesh, const std::filesystem::path& file, std::size_t parts);
 /// Collective: writes the parts that each process holds. Throws what write_shared_mesh() throws.
-void write_shared_pvtu(const MeshParts& parts, const MeshFrame& frame, Ranks& ranks, const std::filesystem::path& file);
+void write_shared_pvtu(const mesh::MeshParts& parts, const MeshFrame& frame, core::ConnectedRanks& ranks,
+                       const std::filesystem::path& file);
 /// Writes sizes as point data.
 void write_vtu_sizes(const SizedMesh& sizes, std::ostream& out);
 /// Reads the mesh and the array of point data that size_array() names.

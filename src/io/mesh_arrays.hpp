@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include <lamina/io.hpp>
 #include <lamina/mesh.hpp>
-#include <lamina/stored_mesh.hpp>
 
 #include "core/scratch_memory.hpp"
 

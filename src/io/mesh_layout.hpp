@@ -15,6 +15,8 @@
 
 #include <lamina/mesh_sink.hpp>
 
+#include "mesh/shared_parts.hpp"
+
 namespace lamina::io {
 
 /// A stretch of a file: a text, then the bytes of all parts for a section if one is given, then `count` records that
@@ -43,7 +45,7 @@ public:
     /// Returns the sizes of these, in a fraction of the time.
     virtual std::vector<std::size_t> sizes(const MeshPart& part) const = 0;
     /// Returns them without the part, where they follow from how much is in it; nothing where they do not.
-    virtual std::optional<std::vector<std::size_t>> sizes(const PartCounts&) const { return std::nullopt; }
+    virtual std::optional<std::vector<std::size_t>> sizes(const mesh::PartCounts&) const { return std::nullopt; }
     /// Throws UsageError for marker names that the format cannot hold.
     virtual void require_names(std::span<const Marker> markers) const = 0;
     /// Returns all of the file, for sections of these sizes. The stretches may refer to the frame.

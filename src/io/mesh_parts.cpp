@@ -1,4 +1,5 @@
 #include "io/mesh_parts.hpp"
+#include "core/marker_names.hpp"
 
 #include <fmt/format.h>
 
@@ -59,9 +60,9 @@ void require_marker_names(std::span<const Marker> markers, const std::filesystem
 
 void require_legal_marker_names(std::span<const Marker> markers, const std::filesystem::path& file,
                                 const char* format) {
-    std::vector<NamedMarker> named;
+    std::vector<core::NamedMarker> named;
     for (const Marker& marker : markers) named.push_back({marker.name, marker.kind});
-    const std::vector<std::string> legal = legal_marker_names(named);
+    const std::vector<std::string> legal = core::legal_marker_names(named);
     for (std::size_t i = 0; i < legal.size(); ++i)
         if (legal[i] != named[i].name)
             throw UsageError(fmt::format("{}: {} cannot hold a marker named '{}' beside the others: call it '{}'",

@@ -15,6 +15,7 @@
 
 #include <lamina/error.hpp>
 
+#include "core/marker_names.hpp"
 #include "io/byte_reader.hpp"
 #include "io/formats.hpp"
 #include "io/mesh_parts.hpp"
@@ -324,7 +325,7 @@ private:
         for (auto& [group, edges] : edges_) {
             const auto named = names_.find({1, group});
             const std::string name = named == names_.end() ? fmt::format("curve{}", group) : std::string(named->second);
-            mesh_.markers.push_back({name, kind_of_name(name), std::move(edges)});
+            mesh_.markers.push_back({name, core::kind_of_name(name), std::move(edges)});
         }
         triangle_groups_.insert(triangle_groups_.end(), quad_groups_.begin(), quad_groups_.end());
         for (const int group : triangle_groups_) {

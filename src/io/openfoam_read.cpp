@@ -18,6 +18,7 @@
 
 #include <lamina/error.hpp>
 
+#include "core/marker_names.hpp"
 #include "io/foam_words.hpp"
 #include "io/formats.hpp"
 #include "io/mesh_parts.hpp"
@@ -37,7 +38,7 @@ struct FoamPatch {
 MarkerKind kind_of(const FoamPatch& patch) {
     if (patch.type == "wall") return MarkerKind::wall;
     if (patch.type == "symmetry" || patch.type == "symmetryPlane") return MarkerKind::symmetry;
-    return kind_of_name(patch.name) == MarkerKind::far_field ? MarkerKind::far_field : MarkerKind::other;
+    return core::kind_of_name(patch.name) == MarkerKind::far_field ? MarkerKind::far_field : MarkerKind::other;
 }
 
 class PolyMeshReader {

@@ -20,14 +20,15 @@
 #include <lamina/error.hpp>
 #include <lamina/files.hpp>
 #include <lamina/io.hpp>
-#include <lamina/partition.hpp>
 
 #include "core/atomic_file.hpp"
 #include "core/parallel.hpp"
 #include "io/formats.hpp"
 #include "io/mesh_parts.hpp"
+#include "io/openfoam_span.hpp"
 #include "io/text_output.hpp"
 #include "mesh/adjacency.hpp"
+#include "mesh/partition.hpp"
 
 namespace lamina::io {
 
@@ -147,7 +148,7 @@ private:
 
     void write_points(std::ostream& out) const {
         const std::size_t n = mesh_.points.size();
-        const std::string front = fmt::format("{})", openfoam_span);
+        const std::string front = fmt::format("{})", io::openfoam_span);
         write_list(out, 2 * n, [&](LineText& line, std::size_t i) {
             line.tight("(") << mesh_.points[i < n ? i : i - n] << (i < n ? std::string_view("0)") : front);
         });
@@ -216,7 +217,7 @@ private:
 
 /// Writes the part of each cell.
 void write_parts(const MeshView& mesh, std::size_t parts, const fs::path& target) {
-    const std::vector<std::uint32_t> part_of_cell = partition_cells(mesh, parts);
+    const std::vector<std::uint32_t> part_of_cell = mesh::partition_cells(mesh, parts);
     core::write_stream_atomically(target, [&](std::ostream& out) {
         out << foam_header("labelList", "", "constant", "cellDecomposition");
         write_list(out, part_of_cell.size(),

@@ -10,13 +10,12 @@
 #include <string>
 #include <vector>
 
-#include <lamina/partition.hpp>
-
 #include "core/atomic_file.hpp"
 #include "core/markup.hpp"
 #include "io/formats.hpp"
 #include "io/pvtu.hpp"
 #include "mesh/adjacency.hpp"
+#include "mesh/partition.hpp"
 
 namespace lamina::io {
 
@@ -29,7 +28,7 @@ class PartCutter {
 public:
     PartCutter(const MeshView& mesh, std::size_t parts)
         : mesh_(mesh), cells_of_part_(parts), edges_of_part_(parts), local_(mesh.points.size()) {
-        const std::vector<std::uint32_t> part_of_cell = partition_cells(mesh, parts);
+        const std::vector<std::uint32_t> part_of_cell = mesh::partition_cells(mesh, parts);
         for (std::size_t c = 0; c < part_of_cell.size(); ++c)
             cells_of_part_[part_of_cell[c]].push_back(static_cast<std::uint32_t>(c));
         sort_marker_edges(part_of_cell);

@@ -17,6 +17,7 @@
 #include "io/formats.hpp"
 #include "io/pvtu.hpp"
 #include "mesh/adjacency.hpp"
+#include "mesh/shared_parts.hpp"
 
 namespace lamina::io {
 
@@ -128,7 +129,7 @@ private:
 };
 
 /// Returns where the parts of PVTU files end: each holds the parts [ends[k - 1], ends[k]) of this process.
-std::vector<std::size_t> ends_of_parts(const MeshParts& parts) {
+std::vector<std::size_t> ends_of_parts(const mesh::MeshParts& parts) {
     std::vector<std::size_t> ends;
     const std::size_t n = parts.places().size();
     std::size_t cells = 0;
@@ -149,7 +150,7 @@ struct PartNumbers {
 };
 
 /// Collective: counts the parts.
-PartNumbers count_parts(std::size_t own, Ranks& ranks) {
+PartNumbers count_parts(std::size_t own, core::ConnectedRanks& ranks) {
     core::Packer packer;
     packer.put_short(own);
     PartNumbers numbers;
@@ -163,7 +164,8 @@ PartNumbers count_parts(std::size_t own, Ranks& ranks) {
 
 }  // namespace
 
-void write_shared_pvtu(const MeshParts& parts, const MeshFrame& frame, Ranks& ranks, const fs::path& file) {
+void write_shared_pvtu(const mesh::MeshParts& parts, const MeshFrame& frame, core::ConnectedRanks& ranks,
+                       const fs::path& file) {
     const std::vector<std::size_t> ends = ends_of_parts(parts);
     const PartNumbers numbers = count_parts(ends.size(), ranks);
     std::vector<fs::path> targets;

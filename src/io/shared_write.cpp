@@ -11,15 +11,16 @@
 #include <lamina/error.hpp>
 #include <lamina/files.hpp>
 #include <lamina/io.hpp>
-#include <lamina/ranks.hpp>
 #include <lamina/threads.hpp>
 
 #include "core/atomic_file.hpp"
+#include "core/connected_ranks.hpp"
 #include "core/packing.hpp"
 #include "core/parallel.hpp"
 #include "io/formats.hpp"
 #include "io/mesh_layout.hpp"
 #include "io/section_file.hpp"
+#include "mesh/shared_parts.hpp"
 
 namespace lamina::io {
 
@@ -54,7 +55,7 @@ std::vector<std::uint64_t> get_numbers(Unpacker& unpacker) {
 std::size_t batch_size() { return parts_at_once * thread_count(); }
 
 /// Collective: returns where the parts belong.
-Arrangement arrange(const MeshParts& parts, const MeshLayout& layout, Ranks& ranks) {
+Arrangement arrange(const mesh::MeshParts& parts, const MeshLayout& layout, core::ConnectedRanks& ranks) {
     const std::size_t sections = layout.sections();
     const std::vector<std::uint64_t> places = parts.places();
     std::vector<std::uint64_t> sizes(places.size() * sections);
@@ -117,9 +118,9 @@ public:
     void add(std::uint64_t offset, std::string bytes) {
         if (!bytes.empty()) blocks_.push_back({offset, std::move(bytes)});
     }
-    void write(SharedFile& file) {
+    void write(core::SharedFile& file) {
         std::sort(blocks_.begin(), blocks_.end(), [](const Owned& a, const Owned& b) { return a.offset < b.offset; });
-        std::vector<SharedFile::Block> views;
+        std::vector<core::SharedFile::Block> views;
         for (const Owned& block : blocks_) views.push_back({block.offset, block.bytes});
         file.write(views);
         blocks_.clear();
@@ -136,8 +137,8 @@ private:
 /// Writes all of a file that this process has to write, in the same rounds as all others.
 class SharedWriter {
 public:
-    SharedWriter(const MeshParts& parts, const MeshLayout& layout, const MeshFrame& frame, Ranks& ranks,
-                 const Arrangement& arrangement)
+    SharedWriter(const mesh::MeshParts& parts, const MeshLayout& layout, const MeshFrame& frame,
+                 core::ConnectedRanks& ranks, const Arrangement& arrangement)
         : parts_(parts),
           layout_(layout),
           ranks_(ranks),
@@ -160,7 +161,7 @@ public:
     /// Returns the size of the file.
     std::uint64_t size() const { return size_; }
 
-    void write(SharedFile& file) const {
+    void write(core::SharedFile& file) const {
         Blocks blocks;
         if (ranks_.rank() == 0)
             for (std::size_t i = 0; i < stretches_.size(); ++i) blocks.add(first_of_stretch_[i], stretches_[i].text);
@@ -179,9 +180,9 @@ public:
     }
 
 private:
-    const MeshParts& parts_;
+    const mesh::MeshParts& parts_;
     const MeshLayout& layout_;
-    Ranks& ranks_;
+    core::ConnectedRanks& ranks_;
     const Arrangement& arrangement_;
     std::vector<FileStretch> stretches_;
     std::vector<std::uint64_t> first_of_stretch_, first_of_section_;
@@ -196,7 +197,7 @@ private:
     }
 
     /// Each process makes an equal share of the records.
-    void write_records(std::size_t stretch_number, Blocks& blocks, SharedFile& file) const {
+    void write_records(std::size_t stretch_number, Blocks& blocks, core::SharedFile& file) const {
         const FileStretch& stretch = stretches_[stretch_number];
         if (stretch.count == 0) return;
         const std::uint64_t first = first_of_stretch_[stretch_number] + stretch.text.size();
@@ -217,7 +218,7 @@ private:
 };
 
 /// Takes bytes and forgets them.
-class NoFile : public SharedFile {
+class NoFile : public core::SharedFile {
 public:
     void write(const std::vector<Block>&) override {}
     std::string close() override { return {}; }
@@ -231,8 +232,9 @@ namespace lamina {
 
 using namespace io;
 
-void write_shared_mesh(const MeshParts& parts, const MeshFrame& frame, Ranks& ranks, const std::filesystem::path& file,
-                       const WriteOptions& options) {
+void write_shared_mesh(const mesh::MeshParts& parts, const MeshFrame& frame, Ranks& all,
+                       const std::filesystem::path& file, const WriteOptions& options) {
+    core::ConnectedRanks& ranks = core::connected(all);
     require_shareable(file, options);
     const bool keeps = !is_null_device(file);
     const auto write_parts = find_format(file, options.format).write_shared;
@@ -249,7 +251,7 @@ void write_shared_mesh(const MeshParts& parts, const MeshFrame& frame, Ranks& ra
         return writer.write(no_file);
     }
     const auto write = [&](const std::filesystem::path& temporary) {
-        const std::unique_ptr<SharedFile> shared = ranks.open_file(temporary, file);
+        const std::unique_ptr<core::SharedFile> shared = ranks.open_file(temporary, file);
         writer.write(*shared);
         if (const std::string failure = shared->close(); !failure.empty()) throw IoError(file.string(), failure);
         ranks.agree();

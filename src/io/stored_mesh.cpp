@@ -1,4 +1,4 @@
-#include <lamina/stored_mesh.hpp>
+#include <lamina/io.hpp>
 
 #include <lamina/files.hpp>
 

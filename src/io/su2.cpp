@@ -13,6 +13,7 @@
 #include <lamina/error.hpp>
 #include <lamina/files.hpp>
 
+#include "core/marker_names.hpp"
 #include "io/formats.hpp"
 #include "io/mesh_arrays.hpp"
 #include "io/mesh_parts.hpp"
@@ -140,7 +141,7 @@ private:
     void read_tag() {
         if (open_tag_) in_.fail(fmt::format("marker '{}' has no MARKER_ELEMS=", mesh_.markers.back().name));
         if (in_.text().empty()) in_.fail("a marker without a name");
-        mesh_.markers.push_back({std::string(in_.text()), kind_of_name(in_.text()), {}});
+        mesh_.markers.push_back({std::string(in_.text()), core::kind_of_name(in_.text()), {}});
         open_tag_ = true;
     }
     void read_marker() {

@@ -20,6 +20,7 @@
 #include "io/file_names.hpp"
 #include "io/text_lines.hpp"
 #include "io/text_output.hpp"
+#include "io/triangle_elements.hpp"
 #include "mesh/adjacency.hpp"
 
 namespace lamina::io {
@@ -265,6 +266,33 @@ void require_writable(const TriangleOutput& output) {
 
 }  // namespace
 
+std::vector<Triangle> read_triangle_elements(const fs::path& file, std::size_t first_index, std::size_t points) {
+    if (first_index > 1) throw InputError({}, fmt::format("files count from 0 or 1, not from {}", first_index));
+    const std::string bytes = read_file(file);
+    NumberLines in(bytes, file.string());
+    in.next("the number of triangles");
+    const std::size_t n = in.count("number of triangles");
+    if (in.number_or<std::size_t>(3, "number of vertices per triangle") != 3)
+        in.fail("only triangles of three vertices can be read");
+    const auto attributes = in.number_or<std::size_t>(0, "number of attributes");
+    in.end_line();
+    std::vector<Triangle> triangles(n);
+    for (Triangle& triangle : triangles) {
+        in.next("a triangle");
+        in.number<std::size_t>("triangle index");
+        for (VertexId& v : triangle.v) {
+            const auto index = in.number<std::size_t>("vertex index");
+            if (index < first_index || index - first_index >= points)
+                in.fail(fmt::format("vertex index {} where there are {} vertices", index, points));
+            v = VertexId(index - first_index);
+        }
+        for (std::size_t a = 0; a < attributes; ++a) in.real("attribute");
+        in.end_line();
+    }
+    if (in.next()) in.fail("something follows the last triangle");
+    return triangles;
+}
+
 }  // namespace lamina::io
 
 namespace lamina {
@@ -294,33 +322,6 @@ TriangleInput read_triangle_files(const fs::path& file, const std::string& forma
     }
     if (equal == EqualPoints::refuse) refuse_duplicates(input);
     return input;
-}
-
-std::vector<Triangle> read_triangle_elements(const fs::path& file, std::size_t first_index, std::size_t points) {
-    if (first_index > 1) throw InputError({}, fmt::format("files count from 0 or 1, not from {}", first_index));
-    const std::string bytes = read_file(file);
-    NumberLines in(bytes, file.string());
-    in.next("the number of triangles");
-    const std::size_t n = in.count("number of triangles");
-    if (in.number_or<std::size_t>(3, "number of vertices per triangle") != 3)
-        in.fail("only triangles of three vertices can be read");
-    const auto attributes = in.number_or<std::size_t>(0, "number of attributes");
-    in.end_line();
-    std::vector<Triangle> triangles(n);
-    for (Triangle& triangle : triangles) {
-        in.next("a triangle");
-        in.number<std::size_t>("triangle index");
-        for (VertexId& v : triangle.v) {
-            const auto index = in.number<std::size_t>("vertex index");
-            if (index < first_index || index - first_index >= points)
-                in.fail(fmt::format("vertex index {} where there are {} vertices", index, points));
-            v = VertexId(index - first_index);
-        }
-        for (std::size_t a = 0; a < attributes; ++a) in.real("attribute");
-        in.end_line();
-    }
-    if (in.next()) in.fail("something follows the last triangle");
-    return triangles;
 }
 
 void mark_boundary(TriangleOutput& output) {

@@ -14,9 +14,11 @@
 #include <lamina/files.hpp>
 #include <lamina/triangle_files.hpp>
 
+#include "core/marker_names.hpp"
 #include "io/file_names.hpp"
 #include "io/formats.hpp"
 #include "io/mesh_parts.hpp"
+#include "io/triangle_elements.hpp"
 #include "mesh/adjacency.hpp"
 
 namespace lamina::io {
@@ -49,8 +51,8 @@ void add_edges(const MeshView& mesh, TriangleOutput& output) {
 }
 
 /// Reads the names and kinds of markers from the comments at the head of a .poly file.
-std::map<long, NamedMarker> read_names(const fs::path& file) {
-    std::map<long, NamedMarker> names;
+std::map<long, core::NamedMarker> read_names(const fs::path& file) {
+    std::map<long, core::NamedMarker> names;
     const std::string bytes = read_file(file);
     std::string_view rest = bytes;
     while (rest.starts_with("# marker ")) {
@@ -109,7 +111,7 @@ Mesh read_triangle_mesh(const fs::path& file) {
     mesh.triangles = read_triangle_elements(with_suffix(stem_of(file), ".ele"), input.first_index, input.points.size());
     mesh.points = std::move(input.points);
     if (!has_poly) return mesh;
-    const std::map<long, NamedMarker> names = read_names(poly);
+    const std::map<long, core::NamedMarker> names = read_names(poly);
     std::map<long, std::size_t> marker_of;
     for (std::size_t i = 0; i < input.segment_markers.size(); ++i) {
         const long number = input.segment_markers[i];

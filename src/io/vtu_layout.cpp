@@ -46,9 +46,9 @@ class VtuLayout : public MeshLayout {
 public:
     std::size_t sections() const override { return vtu_sections; }
     std::vector<std::size_t> sizes(const MeshPart& part) const override {
-        return *sizes(PartCounts{part.points.size(), part.triangles.size(), part.quads.size()});
+        return *sizes(mesh::PartCounts{part.points.size(), part.triangles.size(), part.quads.size()});
     }
-    std::optional<std::vector<std::size_t>> sizes(const PartCounts& part) const override {
+    std::optional<std::vector<std::size_t>> sizes(const mesh::PartCounts& part) const override {
         const std::size_t cells = part.triangles + part.quads;
         return std::vector<std::size_t>{24 * part.points, cells,     4 * cells,
                                         2 * cells,        4 * cells, 24 * part.triangles + 32 * part.quads};

@@ -1,4 +1,4 @@
-// The promises of layers.hpp, checked one by one and independently of how the layer was made.
+// The promises of layer.hpp, checked one by one and independently of how the layer was made.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -12,6 +12,7 @@
 #include "core/box_tree.hpp"
 #include "core/segments.hpp"
 #include "layers/growth_laws.hpp"
+#include "layers/layer.hpp"
 #include "layers/stages.hpp"
 
 namespace lamina::layers {
@@ -324,14 +325,8 @@ private:
 
 }  // namespace
 
-}  // namespace lamina::layers
-
-namespace lamina {
-
-using namespace layers;
-
 std::vector<std::string> check_layer(const Layer& layer, const LayerOptions& options, const BorderOptions& border) {
     return LayerChecker(layer, options, border).run();
 }
 
-}  // namespace lamina
+}  // namespace lamina::layers

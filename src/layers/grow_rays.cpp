@@ -12,6 +12,7 @@
 #include "layers/directions/corners.hpp"
 #include "layers/directions/rays.hpp"
 #include "layers/heights/heights.hpp"
+#include "layers/layer.hpp"
 #include "layers/layered_rays.hpp"
 #include "layers/mechanisms.hpp"
 #include "layers/room/truncation.hpp"

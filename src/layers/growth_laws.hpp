@@ -8,6 +8,7 @@
 
 #include <lamina/layers.hpp>
 
+#include "layers/growth.hpp"
 #include "layers/stages.hpp"
 
 namespace lamina::layers {

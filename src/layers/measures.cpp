@@ -1,6 +1,7 @@
 // What reports say of a layer: the share of the requested cells that was made, everywhere and where nothing is in their way, and
 // how evenly columns end.
 #include "layers/measures.hpp"
+#include "layers/layer.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -111,7 +112,7 @@ ElementCoverage& ElementCoverage::operator+=(const ElementCoverage& other) {
 }  // namespace lamina
 
 // The steps in which the layer ends.
-namespace lamina {
+namespace lamina::layers {
 
 namespace {
 
@@ -163,4 +164,4 @@ BorderSteps border_steps(const Layer& layer) {
     return steps;
 }
 
-}  // namespace lamina
+}  // namespace lamina::layers

@@ -11,11 +11,10 @@
 #include "core/option_rows.hpp"
 #include "core/reproducible_math.hpp"
 #include "layers/growth_laws.hpp"
+#include "layers/layer.hpp"
 
 // The growth of layers that follows from the options: the first height, and what growth laws make of their numbers.
-namespace lamina {
-
-using namespace layers;
+namespace lamina::layers {
 
 double first_height_for(double y_plus, double reynolds, double chord) {
     require_in_range(positive_numbers, y_plus, "y_plus");
@@ -78,9 +77,11 @@ std::optional<double> requested_height(const LayerGrowth& growth) {
     return std::min(layer_height(growth, *growth.layers), growth.thickness.value_or(HUGE_VAL));
 }
 
-}  // namespace lamina
-
-namespace lamina::layers {
+void validate(const BorderOptions& options) {
+    require_in_range(numbers_above(1), options.max_ratio, "max_ratio");
+    require_in_range(positive_numbers, options.gradation, "gradation");
+    if (!(options.max_edge > 0)) throw OptionError("max_edge", "must be greater than 0");
+}
 
 namespace {
 
@@ -178,12 +179,6 @@ void validate(const LayerOptions& options) {
         throw OptionError("layers", fmt::format("{} growth needs {} layers or more", law.name, law.min_layers));
     if (law.fills_thickness && !options.thickness)
         throw OptionError("thickness", fmt::format("{} growth needs a thickness", law.name));
-}
-
-void validate(const BorderOptions& options) {
-    require_in_range(numbers_above(1), options.max_ratio, "max_ratio");
-    require_in_range(positive_numbers, options.gradation, "gradation");
-    if (!(options.max_edge > 0)) throw OptionError("max_edge", "must be greater than 0");
 }
 
 }  // namespace lamina

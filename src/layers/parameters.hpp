@@ -1,5 +1,5 @@
 // The numbers that shape the layer, in one place. Each moves something on the cases of `./dev ablate` or is a promise of
-// layers.hpp (docs/decisions/0075). Angles are in degrees where names say so, lengths and widths are shares of others.
+// layer.hpp (docs/decisions/0075). Angles are in degrees where names say so, lengths and widths are shares of others.
 // Tolerances of rounding and numbers of steps stand where they are used.
 #pragma once
 
@@ -24,6 +24,9 @@ inline constexpr double first_layer_room = 0.75 / ray_fraction;
 inline constexpr double sample_spacing = 0.1;
 
 // Directions.
+
+/// Neighbouring rays of jagged walls diverge by up to this angle (LayerOptions::max_ray_angle_deg), in degrees.
+inline constexpr double max_jagged_ray_angle_deg = 20;
 
 /// Columns are widened to this many times the angle that they may open by, in heights of the front.
 inline constexpr double wanted_width_in_openings = 1.2;
@@ -181,5 +184,14 @@ inline constexpr double min_last_share = 0.6;
 /// The outermost cells between stations are this many first heights wide, like the first cells on the other side of the
 /// wake; each one further in is wider by the ratio. Wide cells beside the first ones made a flow solver diverge.
 inline constexpr double outermost_core_cell = 2, core_cell_ratio = 1.4;
+
+// Measures.
+
+/// The boundary layers of two opposing walls, and triangles between them, fit into a gap that is this many times as
+/// wide as one of the two is high.
+inline constexpr double open_space = 3;
+
+/// Neighbouring columns end evenly where their ends differ in height by at most this share of a last cell.
+inline constexpr double even_border_step = 1.0 / 3;
 
 }  // namespace lamina::layers

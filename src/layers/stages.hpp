@@ -13,6 +13,8 @@
 #include <lamina/layers.hpp>
 #include <lamina/point.hpp>
 
+#include "geometry/wall_spacing.hpp"
+#include "layers/layer.hpp"
 #include "layers/parameters.hpp"
 
 namespace lamina::layers {
@@ -150,7 +152,7 @@ std::vector<std::vector<Point>> fronts(const Rays& rays);
 
 /// Returns the spacings of resampled walls with which their fronts would need no division by these options, wherever
 /// they need one: limits for the stage "prepare". Throws OptionError for options out of range.
-std::vector<WallSpacing> wall_spacings(const Rays& rays, const BorderOptions& options);
+std::vector<geometry::WallSpacing> wall_spacings(const Rays& rays, const BorderOptions& options);
 
 /// Places the points on the rays and divides the fronts, which become outer borders that can be frozen. Throws
 /// OptionError for options out of range.

@@ -1,4 +1,4 @@
-#include <lamina/partition.hpp>
+#include "mesh/partition.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -53,12 +53,6 @@ void bisect(std::span<NumberedMiddle> middles, std::uint32_t first, std::size_t 
 
 }  // namespace
 
-}  // namespace lamina::mesh
-
-namespace lamina {
-
-using namespace mesh;
-
 std::vector<std::uint32_t> partition_cells(const MeshView& mesh, std::size_t parts) {
     if (parts == 0) throw OptionError("parts", "must be positive");
     const CellEdges cells(mesh);
@@ -73,4 +67,4 @@ std::vector<std::uint32_t> partition_cells(const MeshView& mesh, std::size_t par
     return part_of_cell;
 }
 
-}  // namespace lamina
+}  // namespace lamina::mesh

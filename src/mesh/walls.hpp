@@ -11,6 +11,9 @@
 
 namespace lamina::mesh {
 
+/// Neighbouring wall edges are even where the ratio of their lengths is at most this.
+inline constexpr double even_wall_ratio = 1.25;
+
 /// Returns the edges of all markers that may be walls (may_be_wall()), directed with the mesh on their left, sorted.
 LAMINA_EXPORT std::vector<Segment> sorted_wall_edges(std::span<const Marker> markers);
 

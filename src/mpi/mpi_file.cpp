@@ -13,10 +13,10 @@ namespace {
 constexpr std::size_t bytes_at_once = std::size_t{1} << 30;
 
 /// Cuts blocks into lists that one call can write each.
-std::vector<std::vector<SharedFile::Block>> calls_for(const std::vector<SharedFile::Block>& blocks) {
-    std::vector<std::vector<SharedFile::Block>> calls(1);
+std::vector<std::vector<core::SharedFile::Block>> calls_for(const std::vector<core::SharedFile::Block>& blocks) {
+    std::vector<std::vector<core::SharedFile::Block>> calls(1);
     std::size_t room = bytes_at_once;
-    for (SharedFile::Block block : blocks)
+    for (core::SharedFile::Block block : blocks)
         while (!block.bytes.empty()) {
             if (room == 0) {
                 calls.emplace_back();

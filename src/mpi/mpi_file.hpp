@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include <lamina/ranks.hpp>
+#include "core/connected_ranks.hpp"
 
 namespace lamina::mpi {
 
-class MpiFile : public SharedFile {
+class MpiFile : public core::SharedFile {
 public:
     /// Collective: opens the file, or creates it. Where a process cannot open it, all of them know, and nothing is
     /// written.

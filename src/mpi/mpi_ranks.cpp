@@ -27,7 +27,7 @@ int int_size(std::size_t bytes) {
     return static_cast<int>(bytes);
 }
 
-class MpiRanks : public Ranks {
+class MpiRanks : public core::ConnectedRanks {
 public:
     MpiRanks() {
         MPI_Comm_dup(MPI_COMM_WORLD, &all_);
@@ -152,7 +152,8 @@ protected:
         return before;
     }
 
-    std::unique_ptr<SharedFile> do_open_file(const std::filesystem::path& file, const std::filesystem::path&) override {
+    std::unique_ptr<core::SharedFile> do_open_file(const std::filesystem::path& file,
+                                                   const std::filesystem::path&) override {
         return std::make_unique<MpiFile>(all_, file);
     }
 

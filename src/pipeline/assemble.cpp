@@ -5,6 +5,7 @@
 
 #include <lamina/pipeline.hpp>
 
+#include "core/marker_names.hpp"
 #include "core/parallel.hpp"
 #include "pipeline/assemble.hpp"
 #include "pipeline/sharing/piece_streamer.hpp"
@@ -38,18 +39,18 @@ std::vector<Segment> take_base(const Element& element, std::span<const Point> po
 
 std::string wanted_base_name(const Element& element) {
     constexpr std::string_view ending = "_base";
-    return element.name.substr(0, max_marker_name - ending.size()) + std::string(ending);
+    return element.name.substr(0, core::max_marker_name - ending.size()) + std::string(ending);
 }
 
 std::vector<std::string> base_marker_names(const Geometry& geometry) {
-    std::vector<NamedMarker> markers{{std::string(far_field_name), MarkerKind::far_field}};
+    std::vector<core::NamedMarker> markers{{std::string(core::far_field_name), MarkerKind::far_field}};
     for (const Element& element : geometry.elements) markers.push_back({element.name, MarkerKind::wall});
     for (const Element& element : geometry.elements) markers.push_back({wanted_base_name(element), MarkerKind::wall});
-    const std::vector<std::string> names = legal_marker_names(markers);
+    const std::vector<std::string> names = core::legal_marker_names(markers);
     return {names.end() - static_cast<std::ptrdiff_t>(geometry.elements.size()), names.end()};
 }
 
-std::vector<Marker> make_markers(const Geometry& geometry, const Layer& layer, std::vector<Segment> far_field,
+std::vector<Marker> make_markers(const Geometry& geometry, const layers::Layer& layer, std::vector<Segment> far_field,
                                  const AssembleOptions& options) {
     std::vector<Marker> markers;
     const std::vector<std::string> base_names = base_marker_names(geometry);
@@ -60,11 +61,11 @@ std::vector<Marker> make_markers(const Geometry& geometry, const Layer& layer, s
         markers.push_back({element.name, MarkerKind::wall, std::move(wall)});
         if (!base.empty()) markers.push_back({base_names[e], MarkerKind::wall, std::move(base)});
     }
-    markers.push_back({std::string(far_field_name), MarkerKind::far_field, std::move(far_field)});
+    markers.push_back({std::string(core::far_field_name), MarkerKind::far_field, std::move(far_field)});
     return markers;
 }
 
-Mesh layer_mesh(const Layer& layer, const LayerCells& cells) {
+Mesh layer_mesh(const layers::Layer& layer, const layers::LayerCells& cells) {
     Mesh mesh;
     mesh.points = layer.points;
     mesh.triangles = cells.triangles;
@@ -75,22 +76,18 @@ Mesh layer_mesh(const Layer& layer, const LayerCells& cells) {
     return mesh;
 }
 
-}  // namespace lamina::pipeline
-
-namespace lamina {
-
-Mesh assemble(const Geometry& geometry, const Layer& layer, LayerCells cells, Decoupling decoupling,
-              std::vector<Refinement> refinements, const AssembleOptions& options) {
+Mesh assemble(const Geometry& geometry, const layers::Layer& layer, layers::LayerCells cells,
+              decoupling::Decoupling decoupling, std::vector<Refinement> refinements, const AssembleOptions& options) {
     Mesh mesh;
-    pipeline::MeshTaker taker(decoupling, mesh);
-    pipeline::PieceStreamer streamer(decoupling, taker, false);
+    MeshTaker taker(decoupling, mesh);
+    PieceStreamer streamer(decoupling, taker, false);
     streamer.start(cells);
     core::parallel_for(refinements.size(), 1,
                        [&](std::size_t i, std::size_t) { streamer.take(i, std::move(refinements[i])); });
-    mesh.markers = pipeline::make_markers(geometry, layer, std::move(decoupling.far_field), options);
+    mesh.markers = make_markers(geometry, layer, std::move(decoupling.far_field), options);
     mesh.constraints = layer.edges.interfaces;
     streamer.finish(mesh.markers);
     return mesh;
 }
 
-}  // namespace lamina
+}  // namespace lamina::pipeline

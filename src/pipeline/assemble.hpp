@@ -7,6 +7,9 @@
 
 #include <lamina/pipeline.hpp>
 
+#include "decoupling/subdomain.hpp"
+#include "layers/layer.hpp"
+
 namespace lamina::pipeline {
 
 /// Returns the name that the marker of the base of an element would have by itself: NAME_base.
@@ -16,18 +19,29 @@ std::string wanted_base_name(const Element& element);
 std::vector<std::string> base_marker_names(const Geometry& geometry);
 
 /// Returns the markers of the walls, element by element, and that of the far field.
-std::vector<Marker> make_markers(const Geometry& geometry, const Layer& layer, std::vector<Segment> far_field,
+std::vector<Marker> make_markers(const Geometry& geometry, const layers::Layer& layer, std::vector<Segment> far_field,
                                  const AssembleOptions& options);
 
-/// Does what the public split_far_field() does. `points` holds the vertices of the markers.
-void split_far_field(std::span<const Point> points, std::vector<Marker>& markers, double alpha_deg);
+/// Divides the markers that are far fields into `inlet`, where a uniform flow at this angle enters, and `outlet`, the
+/// rest. Either is left out where it has no edge. `points` holds the vertices of the markers. Throws OptionError where
+/// another marker has one of these names.
+LAMINA_EXPORT void split_far_field(std::span<const Point> points, std::vector<Marker>& markers, double alpha_deg);
 
-/// Does what the public mark_slip_walls() does, likewise.
-void mark_slip_walls(std::span<const Point> points, std::vector<Marker>& markers, const FarField& far_field,
-                     bool has_ground);
+/// Takes the edges on slip walls out of the markers that are far fields, and gives them the markers `ground` (the floor
+/// where `has_ground`) and `tunnel`, of the kind symmetry. Throws OptionError where a marker has one of these names.
+LAMINA_EXPORT void mark_slip_walls(std::span<const Point> points, std::vector<Marker>& markers,
+                                   const decoupling::FarField& far_field, bool has_ground);
 
 /// Returns the cells of the layer as a mesh of its own, whose points are those of the layer. Regions and layers of cells
 /// are there; pieces and markers are not.
-Mesh layer_mesh(const Layer& layer, const LayerCells& cells);
+Mesh layer_mesh(const layers::Layer& layer, const layers::LayerCells& cells);
+
+/// Joins the layer and the refined subdomains to one mesh, without any search by coordinates. Vertices keep the numbers
+/// of the decoupling (walls, layer, separators); Steiner points follow, subdomain by subdomain. The triangles of the
+/// layer come first, then those of the subdomains, then the quadrilaterals of the layer. Pieces are numbered in the
+/// same order. Throws MeshError from 2^32 vertices on.
+LAMINA_EXPORT Mesh assemble(const Geometry& geometry, const layers::Layer& layer, layers::LayerCells cells,
+                            decoupling::Decoupling decoupling, std::vector<Refinement> refinements,
+                            const AssembleOptions& options = {});
 
 }  // namespace lamina::pipeline

@@ -10,8 +10,10 @@
 #include <lamina/pipeline.hpp>
 #include <lamina/threads.hpp>
 
+#include "flow/boundary_layer.hpp"
 #include "flow/euler/euler.hpp"
 #include "flow/euler/wall_flow.hpp"
+#include "flow/potential.hpp"
 
 namespace lamina::pipeline {
 
@@ -123,8 +125,10 @@ namespace lamina {
 using namespace pipeline;
 
 bool is_beyond_critical(const Flow& flow, const FlowConditions& conditions) {
+    // Flow that is faster than sound along fewer chords, as at peaks beside lips and noses, counts as subsonic.
+    constexpr double longest_peak = 0.05;
     if (!conditions.mach) return false;
-    return *conditions.mach >= 1 || supersonic_length(flow, *conditions.mach) > longest_peak;
+    return *conditions.mach >= 1 || flow::supersonic_length(flow, *conditions.mach) > longest_peak;
 }
 
 CompressibleFlow solve_compressible_flow(const Geometry& geometry, const FlowConditions& conditions) {
@@ -134,7 +138,7 @@ CompressibleFlow solve_compressible_flow(const Geometry& geometry, const FlowCon
     MeshResult made = generate_mesh(geometry, options_of_mesh(conditions));
     const EulerMesh mesh = euler_mesh(made);
     // Layers hardly move the shocks of supersonic flow.
-    const bool has_layers = *conditions.mach < 1 && !is_laminar(reference);
+    const bool has_layers = *conditions.mach < 1 && !flow::is_laminar(reference);
     const EulerOptions options{.mach = *conditions.mach,
                                .alpha_deg = reference.alpha_deg,
                                .chord = reference.chord,

@@ -5,6 +5,10 @@
 
 #include <lamina/pipeline.hpp>
 
+#include "layers/layer.hpp"
+#include "sizing/requests.hpp"
+#include "surface/spacing_limits.hpp"
+
 namespace lamina::pipeline {
 
 /// The spacing along walls may grow by the gradation of the layer's border per unit of distance, and by this much in
@@ -14,8 +18,19 @@ inline constexpr double min_wall_gradation = 0.05;
 /// Returns whether a background mesh decides on the sizes beyond the layers (SizedMesh::gradation).
 inline bool decides_on_sizes(const SizingOptions& sizing) { return sizing.background && sizing.background->gradation; }
 
+/// Returns the limits that the layer over the walls sets on their spacing.
+LAMINA_EXPORT surface::SpacingLimits spacing_limits(const CaseOptions& options, const layers::LayerGrowth& growth);
+
+/// Returns the options by which the outer border of the layer is divided to suit sizes and refinement. `chord` is the
+/// reference chord.
+LAMINA_EXPORT layers::BorderOptions border_options(const CaseOptions& options, double chord,
+                                                   std::span<const SizeSource> sources);
+
+/// Returns the bodies in the form that the sizing stage takes.
+sizing::SizedBodies sized_bodies(const Geometry& geometry, const ReferenceConditions& conditions);
+
 /// Returns the options of a border whose edges are to suit these sources, too.
-BorderOptions border_with_sources(BorderOptions border, std::span<const SizeSource> sources);
+layers::BorderOptions border_with_sources(layers::BorderOptions border, std::span<const SizeSource> sources);
 
 /// Returns the sizes with edges short enough for a tunnel, where they do not say how long edges may be.
 SizingOptions sizes_in_tunnel(SizingOptions sizing, const FarFieldOptions& far_field, double chord, double fineness);

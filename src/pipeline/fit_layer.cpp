@@ -15,6 +15,7 @@
 #include "layers/stages.hpp"
 #include "pipeline/derived_options.hpp"
 #include "pipeline/wake_sizes.hpp"
+#include "sizing/requests.hpp"
 
 namespace lamina::pipeline {
 
@@ -23,7 +24,8 @@ namespace {
 /// Throws OptionError where the bodies fit into the far field, but not with their layers: the heights are wrong then,
 /// rather than the far field.
 void require_room_for_layers(const Geometry& geometry, const std::vector<std::vector<Point>>& fronts,
-                             const FarField& far_field, const LayerOptions& options, const LayerGrowth& growth) {
+                             const decoupling::FarField& far_field, const LayerOptions& options,
+                             const layers::LayerGrowth& growth) {
     const Box bodies = bounding_box(geometry), domain = far_field.box();
     Box with_layers = bodies;
     for (const std::vector<Point>& front : fronts)
@@ -58,8 +60,8 @@ std::vector<layers::Circle> circles_round_unexcused(std::span<const mesh::Narrow
 
 /// Makes rays on walls, within their far field.
 FittedLayer grow_within(const FarFieldOptions& outer, const LayerOptions& options, Geometry geometry,
-                        const ReferenceConditions& conditions, const LayerGrowth& growth) {
-    FarField far_field = place_far_field(bounding_box(geometry), conditions.chord, outer);
+                        const ReferenceConditions& conditions, const layers::LayerGrowth& growth) {
+    decoupling::FarField far_field = decoupling::place_far_field(bounding_box(geometry), conditions.chord, outer);
     layers::Rays rays = layers::grow_rays(geometry, options, growth);
     if (options.enabled) require_room_for_layers(geometry, layers::fronts(rays), far_field, options, growth);
     std::vector<double> front = rays.front;
@@ -88,14 +90,14 @@ void request_sizes(SizingOptions options, FittedLayer& fitted) {
                 if (wake.begins >= rays.wake_lengths[e]) along_wakes.push_back(wake.source);
         // Shear layers that leave the wall ahead of the trailing edge make the wall below them finer in place of this.
         if (!wakes[e].wake.separated)
-            fit_wake_to_layer(rays, e, border_gradation(field_gradation(options)),
+            fit_wake_to_layer(rays, e, sizing::border_gradation(sizing::field_gradation(options)),
                               std::span(along_wakes).subspan(first));
     }
     const bool decided = decides_on_sizes(options);
     if (!decided) options.sources.insert(options.sources.end(), along_wakes.begin(), along_wakes.end());
     std::vector<SizeSource>& at_borders = fitted.requests.at_borders;
-    fitted.requests = gather_size_requests(options, sized_bodies(fitted.geometry, fitted.conditions),
-                                           layers::fronts(rays), fitted.far_field.box());
+    fitted.requests = sizing::gather_size_requests(options, sized_bodies(fitted.geometry, fitted.conditions),
+                                                   layers::fronts(rays), fitted.far_field.box());
     if (decided) at_borders.insert(at_borders.end(), along_wakes.begin(), along_wakes.end());
     at_borders.insert(at_borders.end(), fitted.short_edges.begin(), fitted.short_edges.end());
 }
@@ -128,12 +130,12 @@ void refine_walls_below_borders(const SurfaceOptions& surface, double least_grad
                                 const std::function<FittedLayer(Geometry)>& grow, FittedLayer& fitted) {
     constexpr int max_rounds = 3;
     for (int round = 0; round < max_rounds; ++round) {
-        BorderOptions border = border_with_sources(fitted.border, fitted.requests.at_borders);
+        layers::BorderOptions border = border_with_sources(fitted.border, fitted.requests.at_borders);
         border.gradation = std::max(border.gradation, least_gradation);
-        const std::vector<WallSpacing> finer = layers::wall_spacings(fitted.rays, border);
+        const std::vector<geometry::WallSpacing> finer = layers::wall_spacings(fitted.rays, border);
         if (finer.empty()) return;
         walls.limits.walls.insert(walls.limits.walls.end(), finer.begin(), finer.end());
-        Geometry prepared = prepare_surfaces(walls.given, surface, walls.limits, fitted.conditions.chord);
+        Geometry prepared = surface::prepare_within(walls.given, surface, walls.limits, fitted.conditions.chord);
         if (same_points(prepared, fitted.geometry)) return;  // the rest are stretches that keep their given points
         fitted = grow(std::move(prepared));
     }
@@ -169,7 +171,8 @@ bool end_obtuse_columns(LayerTopology topology, const DecompositionOptions& deco
     // Cells far from the wall go first: what ends below cells in a cleft can be worse than these, and would hide the gain.
     constexpr std::uint16_t far_from_wall = 10, above_first = 1;
     const auto obtuse_cells_of = [&](const layers::Rays& rays) {
-        const Layer layer = layers::close_border(rays, border_with_sources(fitted.border, fitted.requests.at_borders));
+        const layers::Layer layer =
+            layers::close_border(rays, border_with_sources(fitted.border, fitted.requests.at_borders));
         return layers::obtuse_cells(layer, fill_layer(layer, topology, decomposition), largest_layer_angle_deg);
     };
     std::vector<layers::ObtuseCell> fewest = obtuse_cells_of(fitted.rays);
@@ -182,9 +185,9 @@ bool end_obtuse_columns(LayerTopology topology, const DecompositionOptions& deco
 }  // namespace
 
 FittedLayer fit_layer(PreparedWalls walls, const CaseOptions& options, const ReferenceConditions& conditions,
-                      const LayerGrowth& growth, std::vector<ElementWake> wakes) {
+                      const layers::LayerGrowth& growth, std::vector<ElementWake> wakes) {
     const LayerOptions& layer = options.layer;
-    const BorderOptions border = border_options(options, conditions.chord, {});
+    const layers::BorderOptions border = border_options(options, conditions.chord, {});
     const auto grow = [&](Geometry prepared) {
         FittedLayer fitted = grow_within(options.far_field, layer, std::move(prepared), conditions, growth);
         fitted.wakes = wakes;
@@ -204,7 +207,7 @@ FittedLayer fit_layer(PreparedWalls walls, const CaseOptions& options, const Ref
     return fitted;
 }
 
-Layer close_border(const FittedLayer& fitted) {
+layers::Layer close_border(const FittedLayer& fitted) {
     return layers::close_border(fitted.rays, border_with_sources(fitted.border, fitted.requests.at_borders));
 }
 

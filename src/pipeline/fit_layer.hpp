@@ -7,9 +7,12 @@
 
 #include <lamina/pipeline.hpp>
 
+#include "decoupling/far_field.hpp"
 #include "layers/stages.hpp"
 #include "mesh/piece_check.hpp"
 #include "pipeline/flow_guidance.hpp"
+#include "sizing/requests.hpp"
+#include "surface/spacing_limits.hpp"
 
 namespace lamina::pipeline {
 
@@ -17,18 +20,18 @@ namespace lamina::pipeline {
 struct PreparedWalls {
     const Geometry& given;
     Geometry prepared;
-    SpacingLimits limits;
+    surface::SpacingLimits limits;
 };
 
 /// Rays on walls, of which close_border() makes the layer, and the sizes that their fronts and the options request.
 struct FittedLayer {
     Geometry geometry;  ///< the walls below
     ReferenceConditions conditions;
-    FarField far_field;
+    decoupling::FarField far_field;
     layers::Rays rays;
-    SizeRequests requests{};
+    sizing::SizeRequests requests{};
     std::vector<ElementWake> wakes{};       ///< of the flow, one per element or none
-    BorderOptions border{};                 ///< how the border is divided, but for the sources of the requests
+    layers::BorderOptions border{};         ///< how the border is divided, but for the sources of the requests
     std::vector<double> first_front{};      ///< of the rays, before any was shortened
     std::size_t thinned_rays = 0;           ///< MeshResult::thinned_rays
     Point thinned_at{};                     ///< MeshResult::thinned_at
@@ -42,10 +45,10 @@ inline constexpr double largest_layer_angle_deg = 150;
 /// angles above 150 degrees. Behind the layers that go on along a wake, its sources request sizes. Throws OptionError where layers
 /// do not fit into the far field.
 FittedLayer fit_layer(PreparedWalls walls, const CaseOptions& options, const ReferenceConditions& conditions,
-                      const LayerGrowth& growth, std::vector<ElementWake> wakes);
+                      const layers::LayerGrowth& growth, std::vector<ElementWake> wakes);
 
 /// Returns the layer on its rays.
-Layer close_border(const FittedLayer& fitted);
+layers::Layer close_border(const FittedLayer& fitted);
 
 /// If there are isotropic triangles whose angle is below the bound, and which no sharp corner excuses: shortens the
 /// rays that end beside them (`thin`), or, where no layer is left and elsewhere, the edges of the borders there. Returns

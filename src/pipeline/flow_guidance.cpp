@@ -27,7 +27,7 @@ constexpr double base_corner_heights = 60;
 
 /// Adds the heights along a side, from its stagnation point to its trailing edge.
 void add_heights(const std::vector<FlowPoint>& side, std::size_t element, double most, bool reversed,
-                 std::vector<WallHeight>& heights) {
+                 std::vector<layers::WallHeight>& heights) {
     const auto first = static_cast<std::ptrdiff_t>(heights.size());
     double height = 0;
     for (const FlowPoint& point : side) {
@@ -41,8 +41,8 @@ void add_heights(const std::vector<FlowPoint>& side, std::size_t element, double
 
 /// Adds spacings at both corners of a base. The cells of the fan there are as wide as the first layer is high times the
 /// angle between rays.
-void add_base_corners(const ElementFlow& flow, std::size_t element, const LayerGrowth& growth,
-                      std::vector<WallSpacing>& spacings) {
+void add_base_corners(const ElementFlow& flow, std::size_t element, const layers::LayerGrowth& growth,
+                      std::vector<geometry::WallSpacing>& spacings) {
     const Point above = flow.upper.back().at, below = flow.lower.back().at;
     if (above == below) return;
     const double heights = base_corner_heights / std::max(flow.upper.back().speed, 1.0);
@@ -75,8 +75,8 @@ std::vector<double> first_heights_of_flow(const Flow& flow, double y_plus, doubl
     return heights;
 }
 
-std::vector<WallHeight> heights_of_flow(const Flow& flow) {
-    std::vector<WallHeight> heights;
+std::vector<layers::WallHeight> heights_of_flow(const Flow& flow) {
+    std::vector<layers::WallHeight> heights;
     for (std::size_t e = 0; e < flow.elements.size(); ++e) {
         add_heights(flow.elements[e].upper, e, thickest_layer * flow.chord, true, heights);
         add_heights(flow.elements[e].lower, e, thickest_layer * flow.chord, false, heights);
@@ -84,8 +84,8 @@ std::vector<WallHeight> heights_of_flow(const Flow& flow) {
     return heights;
 }
 
-std::vector<WallSpacing> spacings_of_flow(const Flow& flow, const LayerGrowth& growth) {
-    std::vector<WallSpacing> spacings;
+std::vector<geometry::WallSpacing> spacings_of_flow(const Flow& flow, const layers::LayerGrowth& growth) {
+    std::vector<geometry::WallSpacing> spacings;
     // Layers that go on along the wake need no fans at the base.
     if (growth.wakes.empty())
         for (std::size_t e = 0; e < flow.elements.size(); ++e) add_base_corners(flow.elements[e], e, growth, spacings);
@@ -102,10 +102,10 @@ std::vector<WallSpacing> spacings_of_flow(const Flow& flow, const LayerGrowth& g
     return spacings;
 }
 
-std::vector<FlowSpacing> smallest_spacings(std::span<const WallSpacing> spacings, const Geometry& geometry) {
-    std::vector<const WallSpacing*> smallest(geometry.elements.size(), nullptr);
-    for (const WallSpacing& spacing : spacings) {
-        const WallSpacing*& least = smallest[spacing.element];
+std::vector<FlowSpacing> smallest_spacings(std::span<const geometry::WallSpacing> spacings, const Geometry& geometry) {
+    std::vector<const geometry::WallSpacing*> smallest(geometry.elements.size(), nullptr);
+    for (const geometry::WallSpacing& spacing : spacings) {
+        const geometry::WallSpacing*& least = smallest[spacing.element];
         if (least == nullptr || spacing.spacing < least->spacing) least = &spacing;
     }
     std::vector<FlowSpacing> facts;
@@ -117,7 +117,7 @@ std::vector<FlowSpacing> smallest_spacings(std::span<const WallSpacing> spacings
 }
 
 FlowGuidance guide_by_flow(const Geometry& geometry, const FlowConditions& flow_conditions, const LayerOptions& options,
-                           const ReferenceConditions& conditions, LayerGrowth& growth) {
+                           const ReferenceConditions& conditions, layers::LayerGrowth& growth) {
     FlowGuidance guidance;
     guidance.flow = solve_flow(geometry, flow_conditions);
     const Flow& flow = *guidance.flow;
@@ -125,7 +125,8 @@ FlowGuidance guide_by_flow(const Geometry& geometry, const FlowConditions& flow_
     if (options.enabled) {
         if (const auto* y_plus = std::get_if<YPlus>(&options.first_height); y_plus && !flow.estimated)
             growth.first_heights =
-                layer_growth(options, conditions, first_heights_of_flow(flow, y_plus->y_plus, *conditions.reynolds))
+                layers::layer_growth(options, conditions,
+                                     first_heights_of_flow(flow, y_plus->y_plus, *conditions.reynolds))
                     .first_heights;
         growth.least_heights = heights_of_flow(flow);
         if (options.wake_layers) growth.wakes = wake_lines(flow, guidance.wakes, growth.least_heights);

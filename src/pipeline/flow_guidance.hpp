@@ -8,6 +8,9 @@
 #include <lamina/flow.hpp>
 #include <lamina/pipeline.hpp>
 
+#include "geometry/wall_spacing.hpp"
+#include "layers/growth.hpp"
+
 namespace lamina::pipeline {
 
 /// Returns, for each element, the first height with which its largest skin friction has this y+. Precondition: the flow
@@ -20,15 +23,15 @@ inline constexpr double room_above = 1.35;
 
 /// Returns the heights that layers need along the walls: those of the boundary layers and some room above, never less
 /// than further upstream.
-std::vector<WallHeight> heights_of_flow(const Flow& flow);
+std::vector<layers::WallHeight> heights_of_flow(const Flow& flow);
 
 /// Returns spacings of the walls with which the speed of the flow changes little from one vertex to the next: at the
 /// stagnation point, and on both sides of a suction peak. Spacings at the corners of bases follow from the first heights.
 /// All others are divided by LayerGrowth::fineness.
-std::vector<WallSpacing> spacings_of_flow(const Flow& flow, const LayerGrowth& growth);
+std::vector<geometry::WallSpacing> spacings_of_flow(const Flow& flow, const layers::LayerGrowth& growth);
 
 /// Returns the smallest of these spacings on each resampled element.
-std::vector<FlowSpacing> smallest_spacings(std::span<const WallSpacing> spacings, const Geometry& geometry);
+std::vector<FlowSpacing> smallest_spacings(std::span<const geometry::WallSpacing> spacings, const Geometry& geometry);
 
 /// A source of the size field on a part of a wake.
 struct WakeSource {
@@ -55,7 +58,7 @@ std::vector<ElementWake> wakes_of_flow(const Flow& flow, double fineness = 1);
 struct FlowGuidance {
     std::optional<Flow> flow;        ///< none: nobody asked for it
     std::vector<ElementWake> wakes;  ///< one per element or none
-    std::vector<WallSpacing> spacings;
+    std::vector<geometry::WallSpacing> spacings;
     std::vector<SizeSource> sources;  ///< along shocks
     std::vector<FlowShock> shocks;    ///< beyond the critical Mach number
     bool knows_shocks = false;        ///< FlowDecisions::knows_shocks
@@ -64,11 +67,11 @@ struct FlowGuidance {
 /// Solves the flow round these bodies. Its first heights for the y+ of the options, its least heights and wakes go to `growth`.
 /// Beyond the critical Mach number it solves the compressible flow, too, and makes walls and sizes fine at shocks.
 FlowGuidance guide_by_flow(const Geometry& geometry, const FlowConditions& flow_conditions, const LayerOptions& options,
-                           const ReferenceConditions& conditions, LayerGrowth& growth);
+                           const ReferenceConditions& conditions, layers::LayerGrowth& growth);
 
 /// Returns the lines for layers that go on along these wakes, with heights that hold half of the wake and the boundary
 /// layers of the trailing edges. `heights` are those of heights_of_flow().
-std::vector<WakeLine> wake_lines(const Flow& flow, std::span<const ElementWake> wakes,
-                                 std::span<const WallHeight> heights);
+std::vector<layers::WakeLine> wake_lines(const Flow& flow, std::span<const ElementWake> wakes,
+                                         std::span<const layers::WallHeight> heights);
 
 }  // namespace lamina::pipeline

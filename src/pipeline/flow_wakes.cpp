@@ -8,6 +8,7 @@
 
 #include "flow/boundary_layer.hpp"
 #include "flow/panel_system.hpp"
+#include "flow/potential.hpp"
 #include "flow/separation.hpp"
 #include "pipeline/flow_guidance.hpp"
 #include "surface/spline.hpp"
@@ -82,7 +83,8 @@ void append_streamline(const Flow& flow, double length, const StreamlineOptions&
 /// The flows whose lift falls from that of potential flow to a share of it.
 std::vector<Flow> falling_lift(const Flow& flow, double share) {
     std::vector<Flow> flows{flow};
-    for (int k = 1; k <= lift_steps; ++k) flows.push_back(with_share_of_lift(flow, 1 - (1 - share) * k / lift_steps));
+    for (int k = 1; k <= lift_steps; ++k)
+        flows.push_back(flow::with_share_of_lift(flow, 1 - (1 - share) * k / lift_steps));
     return flows;
 }
 
@@ -274,18 +276,18 @@ std::vector<ElementWake> wakes_of_flow(const Flow& flow, double fineness) {
     return wakes;
 }
 
-std::vector<WakeLine> wake_lines(const Flow& flow, std::span<const ElementWake> wakes,
-                                 std::span<const WallHeight> heights) {
-    std::vector<WakeLine> lines;
+std::vector<layers::WakeLine> wake_lines(const Flow& flow, std::span<const ElementWake> wakes,
+                                         std::span<const layers::WallHeight> heights) {
+    std::vector<layers::WakeLine> lines;
     for (std::size_t e = 0; e < wakes.size(); ++e) {
         if (wakes[e].line.size() < 2) continue;
         // The chain of heights round an element begins and ends at its trailing edge.
-        const auto is_own = [&](const WallHeight& height) { return height.element == e; };
+        const auto is_own = [&](const layers::WallHeight& height) { return height.element == e; };
         const auto above = std::find_if(heights.begin(), heights.end(), is_own);
         const auto below = std::find_if(heights.rbegin(), heights.rend(), is_own);
         const surface::SplineCurve curve({wakes[e].line, false});
         double behind = 0;
-        WakeLine line{e, {{wakes[e].line.front(), above->height, below->height}}};
+        layers::WakeLine line{e, {{wakes[e].line.front(), above->height, below->height}}};
         for (std::size_t piece = 0; piece < curve.pieces(); ++piece)
             for (int k = 1; k <= parts_of_a_step; ++k) {
                 const Point to = curve.at(piece, static_cast<double>(k) / parts_of_a_step);

@@ -4,7 +4,8 @@
 #include <iterator>
 
 #include <lamina/error.hpp>
-#include <lamina/suggestion.hpp>
+
+#include "core/suggestion.hpp"
 
 namespace lamina {
 

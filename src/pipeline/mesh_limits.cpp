@@ -1,4 +1,5 @@
 #include "pipeline/mesh_limits.hpp"
+#include "decoupling/subdomain.hpp"
 
 #include <algorithm>
 #include <string>
@@ -18,14 +19,14 @@ namespace {
 constexpr double seconds_per_border_edge = 100e-6, bytes_per_border_edge = 8e3;
 
 /// Returns the number of triangles in the layer, as many as rows of cells between neighbouring rays have halves.
-double layer_triangles(const Layer& layer) {
+double layer_triangles(const layers::Layer& layer) {
     std::size_t cells = 0;
     for (const ElementCoverage& element : layer.coverage) cells += element.all.made_cells;
     return 2 * static_cast<double>(cells);
 }
 
-RunEstimate estimate_mesh(const RefineOptions& refine, const Layer& layer, const SizeField& size,
-                          const FarField& far_field, const WorkCost& cost) {
+RunEstimate estimate_mesh(const RefineOptions& refine, const layers::Layer& layer, const SizeField& size,
+                          const decoupling::FarField& far_field, const WorkCost& cost) {
     // Measured: how much more time a triangle of the layer takes than another one, and how much regularization takes.
     constexpr double more_seconds_per_layer_triangle = 0.3e-6, seconds_per_regularized_triangle = 12e-6;
     const double in_layer = layer_triangles(layer);
@@ -85,7 +86,7 @@ void require_surface_points_within(const SurfaceOptions& options, std::size_t el
                    std::to_string(*options.points));
 }
 
-void require_layers_within(const LayerGrowth& growth, const Geometry& walls, const WorkBudget& budget) {
+void require_layers_within(const layers::LayerGrowth& growth, const Geometry& walls, const WorkBudget& budget) {
     if (!growth.layers) return;
     // Rays may be cut short.
     constexpr double certain = 2;
@@ -132,8 +133,9 @@ void require_walls_within(const SurfaceOptions& options, const Geometry& prepare
                          estimate);
 }
 
-RunEstimate estimate_within_limits(const RefineOptions& refine, double gradation, const Layer& layer,
-                                   const SizeField& size, const FarField& far_field, const WorkBudget& budget) {
+RunEstimate estimate_within_limits(const RefineOptions& refine, double gradation, const layers::Layer& layer,
+                                   const SizeField& size, const decoupling::FarField& far_field,
+                                   const WorkBudget& budget) {
     const RunEstimate estimate = estimate_mesh(refine, layer, size, far_field, budget.cost);
     if (const double in_layer = layer_triangles(layer); in_layer > 0.5 * estimate.triangles)
         require_within(budget.limits, estimate, "layers",
@@ -143,7 +145,7 @@ RunEstimate estimate_within_limits(const RefineOptions& refine, double gradation
     return estimate;
 }
 
-double triangles_beyond_layer(const RunEstimate& estimate, const Layer& layer) {
+double triangles_beyond_layer(const RunEstimate& estimate, const layers::Layer& layer) {
     return estimate.triangles - layer_triangles(layer);
 }
 

@@ -4,6 +4,9 @@
 #include <lamina/mesh_sink.hpp>
 #include <lamina/pipeline.hpp>
 
+#include "decoupling/far_field.hpp"
+#include "layers/layer.hpp"
+
 namespace lamina::pipeline {
 
 /// The cost of stream_mesh(): what remains in memory are the borders of all pieces (docs/decisions/0045).
@@ -25,7 +28,7 @@ struct WorkBudget {
 void require_surface_points_within(const SurfaceOptions& options, std::size_t elements, const WorkBudget& budget);
 
 /// Throws LimitError where the number of layers alone asks for far more triangles than the limits allow. It takes no time.
-void require_layers_within(const LayerGrowth& growth, const Geometry& walls, const WorkBudget& budget);
+void require_layers_within(const layers::LayerGrowth& growth, const Geometry& walls, const WorkBudget& budget);
 
 /// Throws LimitError where these walls, which the layer is to grow from, ask for more than the limits allow, or for more
 /// than a million rays or edges of the layer's border: where walls are near to each other, these edges are shorter than
@@ -34,11 +37,12 @@ void require_walls_within(const SurfaceOptions& options, const Geometry& prepare
 
 /// Estimates the run from the layer and the size field beyond it. Throws LimitError where it would exceed the limits.
 /// `gradation` is that of the sizes.
-RunEstimate estimate_within_limits(const RefineOptions& refine, double gradation, const Layer& layer,
-                                   const SizeField& size, const FarField& far_field, const WorkBudget& budget);
+RunEstimate estimate_within_limits(const RefineOptions& refine, double gradation, const layers::Layer& layer,
+                                   const SizeField& size, const decoupling::FarField& far_field,
+                                   const WorkBudget& budget);
 
 /// Returns how many triangles the estimate has beyond the layer.
-double triangles_beyond_layer(const RunEstimate& estimate, const Layer& layer);
+double triangles_beyond_layer(const RunEstimate& estimate, const layers::Layer& layer);
 
 /// Returns the options of refinement round a configuration of this reference chord, with which no subdomain goes beyond
 /// the limits. Estimates may be wrong.

@@ -12,6 +12,7 @@
 #include "pipeline/assemble.hpp"
 #include "pipeline/mesh_limits.hpp"
 #include "pipeline/warnings.hpp"
+#include "sizing/requests.hpp"
 
 namespace lamina::pipeline {
 
@@ -28,15 +29,15 @@ void summarize_refinement(const PiecesSummary& pieces, MeshResult& result) {
 }
 
 /// Records which column each cell of the layer belongs to, and where columns stand.
-void record_columns(const Layer& layer, const LayerCells& cells, MeshResult& result) {
+void record_columns(const layers::Layer& layer, const layers::LayerCells& cells, MeshResult& result) {
     if (cells.triangle_column.empty() && cells.quad_column.empty()) return;
     result.columns = cells.triangle_column;
     result.columns.insert(result.columns.end(), cells.quad_column.begin(), cells.quad_column.end());
-    for (const std::vector<Ray>& rays : layer.rays)
-        for (const Ray& ray : rays) result.column_origins.push_back(ray.origin);
+    for (const std::vector<layers::Ray>& rays : layer.rays)
+        for (const layers::Ray& ray : rays) result.column_origins.push_back(ray.origin);
 }
 
-void summarize_cells(const Layer& layer, const LayerCells& cells, MeshResult& result) {
+void summarize_cells(const layers::Layer& layer, const layers::LayerCells& cells, MeshResult& result) {
     result.layer_pieces = cells.pieces();
     result.decomposition = cells.decomposition;
     result.layer_grid_refused = cells.grid_refused;
@@ -44,7 +45,8 @@ void summarize_cells(const Layer& layer, const LayerCells& cells, MeshResult& re
 }
 
 /// Records what is known of a layer before it is filled.
-void summarize_layer(const FittedLayer& fitted, const Layer& layer, const LayerOptions& options, MeshResult& result) {
+void summarize_layer(const FittedLayer& fitted, const layers::Layer& layer, const LayerOptions& options,
+                     MeshResult& result) {
     result.geometry = fitted.geometry;
     result.conditions = fitted.conditions;
     result.thinned_rays = fitted.thinned_rays;
@@ -96,14 +98,14 @@ MadeMesh make_mesh(const FittedLayer& fitted, const CaseOptions& options, MeshDr
     const WorkBudget budget{options.limits, driver.cost()};
     MadeMesh made;
     MeshResult& result = made.result;
-    const Layer layer = close_border(fitted);
+    const layers::Layer layer = close_border(fitted);
     summarize_layer(fitted, layer, options.layer, result);
     made.constraints = layer.edges.interfaces;
     clock.end(&StageSeconds::layers);
 
     clock.begin("sizing");
-    const SizeField size = make_size_field(border_loops(layer), fitted.requests.sources, options.sizing,
-                                           fitted.conditions.chord, fitted.far_field.box());
+    const SizeField size = sizing::make_size_field(border_loops(layer), fitted.requests.sources, options.sizing,
+                                                   fitted.conditions.chord, fitted.far_field.box());
     std::optional<RunEstimate> estimate;
     driver.lead([&] {
         estimate =

@@ -7,6 +7,7 @@
 #include <lamina/pipeline.hpp>
 
 #include "mesh/piece_check.hpp"
+#include "mesh/shared_parts.hpp"
 #include "pipeline/fit_layer.hpp"
 #include "pipeline/sharing/mesh_driver.hpp"
 #include "pipeline/stage_clock.hpp"
@@ -21,7 +22,7 @@ struct MadeMesh {
     std::string hash{};  ///< where the driver knows it
     std::vector<Segment> constraints{};
     std::unique_ptr<MeshSink> sink{};
-    std::unique_ptr<MeshParts> parts{};
+    std::shared_ptr<const mesh::MeshParts> parts{};
 };
 
 /// Makes a mesh round this layer. Throws MeshError where it is not valid, and LimitError.

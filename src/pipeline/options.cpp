@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/limits.hpp"
 #include "core/option_rows.hpp"
 #include "core/reproducible_math.hpp"
 #include "pipeline/derived_options.hpp"
+#include "sizing/requests.hpp"
 
 namespace lamina::pipeline {
 
@@ -42,7 +44,7 @@ OptionTable<CaseOptions> make_pipeline_rows() {
     run.spec("max-memory", "SIZE",
              "largest memory of the process, such as 500M or 2G; a run that needs more, by estimate, is refused before "
              "the work; the program's default is 80 % of what is free",
-             parse_memory, memory_text, member_at(&CaseOptions::limits, &WorkLimits::max_memory_bytes));
+             core::parse_memory, core::memory_text, member_at(&CaseOptions::limits, &WorkLimits::max_memory_bytes));
     OptionTable<CaseOptions> rows;
     for (auto* builder : {&flow, &outer, &files, &run})
         for (Option<CaseOptions>& option : builder->take()) rows.push_back(std::move(option));
@@ -128,19 +130,23 @@ void validate(const CaseOptions& options) {
     }
 }
 
-SpacingLimits spacing_limits(const CaseOptions& options, const LayerGrowth& growth) {
-    SpacingLimits limits;
+}  // namespace lamina
+
+namespace lamina::pipeline {
+
+surface::SpacingLimits spacing_limits(const CaseOptions& options, const layers::LayerGrowth& growth) {
+    surface::SpacingLimits limits;
     limits.max_turning_deg = options.layer.max_ray_angle_deg;
-    if (options.layer.equal_fans) limits.fan_parts = equal_fan_parts(options.layer);
+    if (options.layer.equal_fans) limits.fan_parts = layers::equal_fan_parts(options.layer);
     // The layer's border over a fan of rays has edges of height x ray angle, and grows no faster than its gradation.
     // Where the wall's spacing exceeds this, border edges are divided, and the rows below fan out to the division
     // points.
     constexpr double margin = 0.9;
     limits.gradation =
-        std::max(margin * border_gradation(options.sizing.gradation), min_wall_gradation / options.fineness);
+        std::max(margin * sizing::border_gradation(options.sizing.gradation), min_wall_gradation / options.fineness);
     if (!options.layer.enabled) return limits;
     // The height of automatic and adaptive layers follows from the spacing of the wall, so it sets no limit.
-    const auto fan_edge = [&](const LayerGrowth& on_element) {
+    const auto fan_edge = [&](const layers::LayerGrowth& on_element) {
         return requested_height(on_element).value_or(0) * core::radians(options.layer.max_ray_angle_deg);
     };
     if (!(fan_edge(growth) > 0)) return limits;
@@ -150,11 +156,12 @@ SpacingLimits spacing_limits(const CaseOptions& options, const LayerGrowth& grow
     return limits;
 }
 
-BorderOptions border_options(const CaseOptions& options, double chord, std::span<const SizeSource> sources) {
+layers::BorderOptions border_options(const CaseOptions& options, double chord, std::span<const SizeSource> sources) {
     const auto largest = [&](const std::optional<Length>& size) { return size ? in_units(*size, chord) : HUGE_VAL; };
-    BorderOptions border;
-    border.gradation = border_gradation(options.sizing.gradation);
-    border.max_edge = frozen_share * std::min(largest(options.sizing.wall_size), largest(options.sizing.far_size));
+    layers::BorderOptions border;
+    border.gradation = sizing::border_gradation(options.sizing.gradation);
+    border.max_edge =
+        sizing::frozen_share * std::min(largest(options.sizing.wall_size), largest(options.sizing.far_size));
     // Neighbouring frozen edges may differ by sqrt 2 / (2 sin(bound)) before a quality-driven vertex can encroach
     // (docs/decisions/0003). A tenth more saves many splits, and has never made a vertex encroach.
     const double bound = core::radians(options.refine.min_angle_deg);
@@ -162,8 +169,8 @@ BorderOptions border_options(const CaseOptions& options, double chord, std::span
     return border_with_sources(std::move(border), sources);
 }
 
-SizedBodies sized_bodies(const Geometry& geometry, const ReferenceConditions& conditions) {
-    SizedBodies bodies;
+sizing::SizedBodies sized_bodies(const Geometry& geometry, const ReferenceConditions& conditions) {
+    sizing::SizedBodies bodies;
     bodies.chord = conditions.chord;
     bodies.alpha_deg = conditions.alpha_deg;
     for (const Element& element : geometry.elements) {
@@ -173,15 +180,11 @@ SizedBodies sized_bodies(const Geometry& geometry, const ReferenceConditions& co
     return bodies;
 }
 
-}  // namespace lamina
-
-namespace lamina::pipeline {
-
-BorderOptions border_with_sources(BorderOptions border, std::span<const SizeSource> sources) {
+layers::BorderOptions border_with_sources(layers::BorderOptions border, std::span<const SizeSource> sources) {
     // Edges may exceed the size of a source by up to a tenth (BorderOptions::sources), usually by less than this.
     constexpr double division_tolerance = 1.08;
     for (SizeSource source : sources) {
-        source.size *= frozen_share / division_tolerance;
+        source.size *= sizing::frozen_share / division_tolerance;
         border.sources.push_back(source);
     }
     return border;

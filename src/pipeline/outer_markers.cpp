@@ -43,7 +43,7 @@ void split_far_field(std::span<const Point> points, std::vector<Marker>& markers
         if (!part->edges.empty()) markers.push_back(std::move(*part));
 }
 
-void mark_slip_walls(std::span<const Point> points, std::vector<Marker>& markers, const FarField& far_field,
+void mark_slip_walls(std::span<const Point> points, std::vector<Marker>& markers, const decoupling::FarField& far_field,
                      bool has_ground) {
     require_free_names(markers, {"ground", "tunnel"}, has_ground ? "ground" : "tunnel");
     Marker ground{"ground", MarkerKind::symmetry, {}}, tunnel{"tunnel", MarkerKind::symmetry, {}};
@@ -65,13 +65,3 @@ void mark_slip_walls(std::span<const Point> points, std::vector<Marker>& markers
 }
 
 }  // namespace lamina::pipeline
-
-namespace lamina {
-
-void split_far_field(Mesh& mesh, double alpha_deg) { pipeline::split_far_field(mesh.points, mesh.markers, alpha_deg); }
-
-void mark_slip_walls(Mesh& mesh, const FarField& far_field, bool has_ground) {
-    pipeline::mark_slip_walls(mesh.points, mesh.markers, far_field, has_ground);
-}
-
-}  // namespace lamina

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include <lamina/error.hpp>
-#include <lamina/shared_mesh.hpp>
 #include <lamina/stream.hpp>
 #include <lamina/threads.hpp>
 
@@ -16,6 +15,7 @@
 #include "pipeline/flow_guidance.hpp"
 #include "pipeline/mesh_limits.hpp"
 #include "pipeline/mesh_stages.hpp"
+#include "sizing/requests.hpp"
 
 namespace lamina::pipeline {
 
@@ -55,11 +55,11 @@ MadeMesh make_mesh_until_angles_hold(FittedLayer& fitted, const CaseOptions& opt
 }
 
 /// Returns what the flow decided for a mesh on these rays.
-FlowDecisions flow_decisions(const LayerGrowth& growth, std::span<const WallSpacing> spacings,
+FlowDecisions flow_decisions(const layers::LayerGrowth& growth, std::span<const geometry::WallSpacing> spacings,
                              const FittedLayer& fitted, const SizingOptions& sizing) {
     FlowDecisions decisions;
     if (!growth.layers)
-        for (const WallHeight& least : growth.least_heights)
+        for (const layers::WallHeight& least : growth.least_heights)
             decisions.least_thickness = std::max(decisions.least_thickness, least.height);
     for (std::size_t e = 0; e < fitted.wakes.size(); ++e) {
         const double with_layers = fitted.rays.wake_lengths[e];
@@ -73,13 +73,15 @@ FlowDecisions flow_decisions(const LayerGrowth& growth, std::span<const WallSpac
 
 /// Prepares walls for the layer that is to grow on them. Throws LimitError where they or the options ask for too much.
 PreparedWalls prepare_walls(const Geometry& given, const CaseOptions& options, const ReferenceConditions& conditions,
-                            const LayerGrowth& growth, std::span<const WallSpacing> spacings,
+                            const layers::LayerGrowth& growth, std::span<const geometry::WallSpacing> spacings,
                             const WorkBudget& budget) {
     PreparedWalls walls{given, {}, spacing_limits(options, growth)};
     walls.limits.walls.assign(spacings.begin(), spacings.end());
-    walls.prepared = prepare_surfaces(given, options.surface, walls.limits, conditions.chord);
-    const FarField far_field = place_far_field(bounding_box(walls.prepared), conditions.chord, options.far_field);
-    require_within_limits(options.sizing, sized_bodies(walls.prepared, conditions), far_field.box(), budget.limits);
+    walls.prepared = surface::prepare_within(given, options.surface, walls.limits, conditions.chord);
+    const decoupling::FarField far_field =
+        decoupling::place_far_field(bounding_box(walls.prepared), conditions.chord, options.far_field);
+    sizing::require_within_limits(options.sizing, sized_bodies(walls.prepared, conditions), far_field.box(),
+                                  budget.limits);
     if (options.layer.enabled) {
         require_layers_within(growth, walls.prepared, budget);
         require_walls_within(options.surface, walls.prepared, budget);
@@ -93,7 +95,7 @@ MadeMesh run(const Geometry& given, CaseOptions options, MeshDriver& driver, Sta
     options.sizing = sizes_in_tunnel(std::move(options.sizing), options.far_field, conditions.chord, options.fineness);
     const WorkBudget budget{options.limits, driver.cost()};
     require_surface_points_within(options.surface, given.elements.size(), budget);
-    LayerGrowth growth = layer_growth(options.layer, conditions);
+    layers::LayerGrowth growth = layers::layer_growth(options.layer, conditions);
     growth.fineness = options.fineness;
 
     FlowGuidance guidance;
@@ -165,6 +167,13 @@ namespace lamina {
 
 using namespace pipeline;
 
+Geometry prepare_geometry(Geometry geometry, const CaseOptions& options) {
+    const ReferenceConditions conditions = reference_conditions(options.conditions, reference_box(geometry));
+    const layers::LayerGrowth growth = layers::layer_growth(options.layer, conditions);
+    return surface::prepare_within(std::move(geometry), options.surface, spacing_limits(options, growth),
+                                   conditions.chord);
+}
+
 MeshResult generate_mesh(const Geometry& geometry, const CaseOptions& options, const Progress& progress) {
     KeepingDriver driver;
     const auto given = [&](StageClock&) -> const Geometry& { return geometry; };
@@ -185,7 +194,7 @@ StreamedMesh stream_mesh(const std::vector<std::string>& inputs, const CaseOptio
 
 SharedMesh share_mesh(const std::vector<std::string>& inputs, const CaseOptions& options, Ranks& ranks,
                       const std::optional<std::filesystem::path>& beside, const Progress& progress) {
-    SharingDriver driver(ranks, beside);
+    SharingDriver driver(core::connected(ranks), beside);
     MadeMesh made = run_on_inputs(inputs, options, driver, progress);
     return {std::move(made.result), made.counts, std::move(made.hash), std::move(made.constraints),
             std::move(made.parts)};

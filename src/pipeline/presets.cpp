@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include <lamina/option.hpp>
+#include "core/option_builders.hpp"
 
 namespace lamina::pipeline {
 

@@ -9,8 +9,8 @@
 #include <variant>
 
 #include <lamina/error.hpp>
-#include <lamina/option_builders.hpp>
 
+#include "core/option_builders.hpp"
 #include "core/reproducible_math.hpp"
 #include "layers/growth_laws.hpp"
 
@@ -41,7 +41,7 @@ void refine_surface(double ratio, SurfaceOptions& surface) {
 /// Returns the ratio of successive heights on a ray, with which the law is geometric.
 double geometric_ratio(const LayerOptions& layer, const ReferenceConditions& conditions) {
     if (layer.growth_law != GrowthLaw::exponential) return layer.growth;
-    return layers::growth_law_entry(layer.growth_law).ray_growth(layer_growth(layer, conditions));
+    return layers::growth_law_entry(layer.growth_law).ray_growth(layers::layer_growth(layer, conditions));
 }
 
 void multiply_first_height(double factor, LayerOptions& layer) {

@@ -69,7 +69,7 @@ bool is_faded(const CompressibleFlow& flow, Point p) {
 
 /// Adds the spacings of one side from a point of it on.
 void add_spacings(const CompressibleSide& side, std::size_t element, Point foot, double ahead, double spacing,
-                  std::vector<WallSpacing>& spacings) {
+                  std::vector<geometry::WallSpacing>& spacings) {
     const auto nearer = [&](const CompressibleWallPoint& a, const CompressibleWallPoint& b) {
         return squared_length(a.at - foot) < squared_length(b.at - foot);
     };

@@ -6,11 +6,13 @@
 #include <lamina/compressible_flow.hpp>
 #include <lamina/pipeline.hpp>
 
+#include "geometry/wall_spacing.hpp"
+
 namespace lamina::pipeline {
 
 /// What the shocks ask for.
 struct ShockSizes {
-    std::vector<WallSpacing> spacings;
+    std::vector<geometry::WallSpacing> spacings;
     std::vector<SizeSource> sources;
     std::vector<FlowShock> shocks;
     bool knows_shocks = false;  ///< whether the flow is steady

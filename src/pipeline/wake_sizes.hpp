@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <span>
 
-#include <lamina/layers.hpp>
 #include <lamina/sizing.hpp>
 
 #include "layers/stages.hpp"

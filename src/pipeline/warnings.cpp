@@ -1,6 +1,7 @@
 // The bounds below separate good meshes from others, as measured on a collection of sections (docs/decisions/0020).
 // Places are searched only where there is something to warn of.
 #include "pipeline/warnings.hpp"
+#include "core/marker_names.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -358,7 +359,7 @@ void warn_of_base_markers(const Geometry& geometry, std::vector<Warning>& warnin
         const Element& element = geometry.elements[e];
         const std::string wanted = wanted_base_name(element);
         if (!element.features.base || names[e] == wanted) continue;
-        Warning warning = renamed_marker_warning({wanted, MarkerKind::wall}, names[e]);
+        Warning warning = core::renamed_marker_warning({wanted, MarkerKind::wall}, names[e]);
         warning.element = element.name;
         warning.message = fmt::format("{}: base: {}", element.name, warning.message);
         warnings.push_back(std::move(warning));

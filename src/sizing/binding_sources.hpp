@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include <lamina/sizing.hpp>
+#include "sizing/requests.hpp"
 
 namespace lamina::sizing {
 

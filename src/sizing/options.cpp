@@ -3,6 +3,7 @@
 
 #include "core/option_rows.hpp"
 #include "sizing/shapes.hpp"
+#include "sizing/wake.hpp"
 
 namespace lamina {
 
@@ -21,11 +22,11 @@ OptionTable<SizingOptions> option_rows() {
         "small triangles along a line from each trailing edge: ANGLE in degrees to the x axis, or auto for that "
         "of the flow (alpha); LENGTH of the line (2 chords); SIZE at the trailing edge (else the size there "
         "without a wake); may be given several times",
-        parse_wake, wake_text, member_at(&SizingOptions::wakes));
+        sizing::parse_wake, sizing::wake_text, member_at(&SizingOptions::wakes));
     table.specs("refine", "SHAPE",
                 "edge length H in and round a shape, " + sizing::source_forms() +
                     ", in units of the input; may be given several times",
-                parse_size_source, size_source_text, member_at(&SizingOptions::sources));
+                sizing::parse_size_source, sizing::size_source_text, member_at(&SizingOptions::sources));
     return table.take();
 }
 template LAMINA_EXPORT const OptionTable<SizingOptions>& option_table();

@@ -1,6 +1,6 @@
 // Collects the sources of the size field: the borders of the layers, wakes, background meshes and the user's own
 // shapes.
-#include <lamina/sizing.hpp>
+#include "sizing/requests.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -83,12 +83,6 @@ void append(const std::vector<SizeSource>& more, std::vector<SizeSource>& source
 
 }  // namespace
 
-}  // namespace lamina::sizing
-
-namespace lamina {
-
-using namespace sizing;
-
 double field_gradation(const SizingOptions& options) {
     return options.background && options.background->gradation ? *options.background->gradation : options.gradation;
 }
@@ -140,4 +134,4 @@ SizeField make_size_field(Loops borders, std::span<const SizeSource> sources, co
     return SizeField(all, field, domain);
 }
 
-}  // namespace lamina
+}  // namespace lamina::sizing

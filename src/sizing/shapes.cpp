@@ -118,20 +118,6 @@ std::string source_forms() {
     return text;
 }
 
-}  // namespace lamina::sizing
-
-namespace lamina {
-
-using namespace sizing;
-
-double distance_to(const SizeSource& source, Point p) { return distance_to(prepare_shape(source), p); }
-
-Box bounding_box(const SizeSource& source) {
-    const Box box = core::bounding_box(source.a, source.b);
-    const Point margin{source.radius, source.radius};
-    return {box.lower - margin, box.upper + margin};
-}
-
 SizeSource parse_size_source(const std::string& text) {
     const std::size_t colon = std::min(text.find(':'), text.size());
     const std::string word = text.substr(0, colon);
@@ -151,6 +137,20 @@ std::string size_source_text(const SizeSource& source) {
     for (const double number : form.write(source))
         text += core::concat(text.empty() ? core::concat(form.word, ":") : ",", number);
     return text;
+}
+
+}  // namespace lamina::sizing
+
+namespace lamina {
+
+using namespace sizing;
+
+double distance_to(const SizeSource& source, Point p) { return distance_to(prepare_shape(source), p); }
+
+Box bounding_box(const SizeSource& source) {
+    const Box box = core::bounding_box(source.a, source.b);
+    const Point margin{source.radius, source.radius};
+    return {box.lower - margin, box.upper + margin};
 }
 
 }  // namespace lamina

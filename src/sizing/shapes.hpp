@@ -106,6 +106,12 @@ Extent extent_in(const Box& domain, const SizeSource& source);
 /// Returns why a source has no shape; null where it has one.
 const char* shape_fault(const SizeSource& source);
 
+/// Reads "box:X0,Y0,X1,Y1,H", "circle:X,Y,R,H" or "line:X0,Y0,X1,Y1,H", where H is the size. Throws UsageError with the
+/// bare reason.
+LAMINA_EXPORT SizeSource parse_size_source(const std::string& text);
+/// Returns the text that parse_size_source() reads back.
+LAMINA_EXPORT std::string size_source_text(const SizeSource& source);
+
 /// Returns the texts of all shapes in one line: "box:X0,Y0,X1,Y1,H, ... or line:X0,Y0,X1,Y1,H".
 std::string source_forms();
 

@@ -10,6 +10,7 @@
 #include <lamina/error.hpp>
 
 #include "core/bounding_box.hpp"
+#include "sizing/background.hpp"
 #include "sizing/shapes.hpp"
 #include "sizing/size_tree.hpp"
 
@@ -259,5 +260,9 @@ double SizeField::inverse_square_integral() const {
 }
 
 std::size_t SizeField::cells() const { return tree_ ? tree_->leaves.size() : 1; }
+
+SizeField size_field_of_mesh(const SizedMesh& mesh, const SizeFieldOptions& options, const Box& domain) {
+    return SizeField(background_sources(mesh, options.gradation, domain), options, domain);
+}
 
 }  // namespace lamina

@@ -3,7 +3,7 @@
 // border of length L, where h = s + g d at the distance d, g being the gradation, the integral up to the distance D is
 //
 //     L D / (s (s + g D)).
-#include <lamina/sizing.hpp>
+#include "sizing/requests.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +11,8 @@
 #include <lamina/limits.hpp>
 #include <lamina/threads.hpp>
 
+#include "core/length.hpp"
+#include "core/limits.hpp"
 #include "sizing/shapes.hpp"
 #include "sizing/wake.hpp"
 
@@ -25,8 +27,8 @@ void require_within_limits(double inverse_square_integral, const std::string& op
     // Some of the integral may lie inside bodies and layers.
     constexpr double certain = 2;
     const double triangles = inverse_square_integral / equilateral_area;
-    if (triangles > certain * allowed_triangles(limits, mesh_cost))
-        throw_limit_error(limits, estimate_run(triangles, mesh_cost, thread_count()), option, value);
+    if (triangles > certain * allowed_triangles(limits, core::mesh_cost))
+        throw_limit_error(limits, estimate_run(triangles, core::mesh_cost, thread_count()), option, value);
 }
 
 /// Returns the integral of 1 / h^2 beside a border of this length and size, up to the distance `reach`.
@@ -49,19 +51,13 @@ double total_length(const std::vector<std::vector<Point>>& loops) {
 
 }  // namespace
 
-}  // namespace lamina::sizing
-
-namespace lamina {
-
-using namespace sizing;
-
 void require_within_limits(const SizingOptions& options, const SizedBodies& bodies, const Box& domain,
                            const WorkLimits& limits) {
     const double gradation = options.gradation, reach = 0.1 * std::min(domain.width(), domain.height());
     if (options.far_size) {
         const double size = in_units(*options.far_size, bodies.chord);
         require_within_limits(domain.width() * domain.height() / (size * size), "far_size",
-                              length_text(*options.far_size), limits);
+                              core::length_text(*options.far_size), limits);
     }
     for (const SizeSource& source : options.sources)
         require_within_limits(integral_round(source, gradation, reach, domain), "refine", size_source_text(source),
@@ -69,7 +65,7 @@ void require_within_limits(const SizingOptions& options, const SizedBodies& bodi
     if (const auto& size = options.wall_size)
         require_within_limits(
             integral_beside(total_length(bodies.walls), in_units(*size, bodies.chord), gradation, reach), "wall_size",
-            length_text(*size), limits);
+            core::length_text(*size), limits);
     for (const WakeOptions& wake : options.wakes) {
         double integral = 0;
         for (const SizeSource& source : given_wake_sources(wake, bodies, gradation))
@@ -78,4 +74,4 @@ void require_within_limits(const SizingOptions& options, const SizedBodies& bodi
     }
 }
 
-}  // namespace lamina
+}  // namespace lamina::sizing

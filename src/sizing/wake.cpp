@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <lamina/option_builders.hpp>
-
+#include "core/length.hpp"
+#include "core/option_builders.hpp"
 #include "core/reproducible_math.hpp"
 #include "core/text.hpp"
 
@@ -70,27 +70,23 @@ std::vector<SizeSource> given_wake_sources(const WakeOptions& options, const Siz
     return sources;
 }
 
-}  // namespace lamina::sizing
-
-namespace lamina {
-
 WakeOptions parse_wake(const std::string& text) {
     const std::vector<std::string> parts = core::split(text, ':');
     core::require_text(parts.size() <= 3, text, "a wake is ANGLE[:LENGTH[:SIZE]]");
     WakeOptions wake;
     if (parts[0] != auto_word) wake.angle_deg = core::parse_number(parts[0]);
     core::require_text(std::abs(wake.angle_deg.value_or(0)) <= 360, text, "the angle must be from -360 to 360 degrees");
-    if (parts.size() > 1) wake.length = parse_length(parts[1]);
+    if (parts.size() > 1) wake.length = core::parse_length(parts[1]);
     core::require_text(wake.length.value > 0, text, "the length must be > 0");
-    if (parts.size() > 2) wake.size = parse_length(parts[2]);
+    if (parts.size() > 2) wake.size = core::parse_length(parts[2]);
     core::require_text(wake.size.value_or(1).value > 0, text, "the size must be > 0");
     return wake;
 }
 
 std::string wake_text(const WakeOptions& wake) {
     const std::string angle = wake.angle_deg ? core::to_text(*wake.angle_deg) : auto_word;
-    const std::string text = core::concat(angle, ":", length_text(wake.length));
-    return wake.size ? core::concat(text, ":", length_text(*wake.size)) : text;
+    const std::string text = core::concat(angle, ":", core::length_text(wake.length));
+    return wake.size ? core::concat(text, ":", core::length_text(*wake.size)) : text;
 }
 
-}  // namespace lamina
+}  // namespace lamina::sizing

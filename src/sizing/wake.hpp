@@ -1,9 +1,10 @@
 // Wakes as sources of the size field.
 #pragma once
 
+#include <string>
 #include <vector>
 
-#include <lamina/sizing.hpp>
+#include "sizing/requests.hpp"
 
 namespace lamina::sizing {
 
@@ -22,5 +23,10 @@ std::vector<SizeSource> wake_sources(const Wake& wake, double size, double grada
 /// Returns the sources along the wakes of one line from each trailing edge if the options give the size there, and none
 /// otherwise.
 std::vector<SizeSource> given_wake_sources(const WakeOptions& options, const SizedBodies& bodies, double gradation);
+
+/// Reads "ANGLE[:LENGTH[:SIZE]]", where ANGLE may be "auto". Throws UsageError with the bare reason.
+WakeOptions parse_wake(const std::string& text);
+/// Returns the text that parse_wake() reads back.
+std::string wake_text(const WakeOptions& wake);
 
 }  // namespace lamina::sizing

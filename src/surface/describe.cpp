@@ -11,13 +11,13 @@
 
 #include "core/bounding_box.hpp"
 #include "core/reproducible_math.hpp"
+#include "geometry/sharp_corner.hpp"
 #include "surface/corners.hpp"
 #include "surface/notes.hpp"
+#include "surface/summary.hpp"
 #include "surface/trailing_edge.hpp"
 
-namespace lamina {
-
-using namespace surface;
+namespace lamina::surface {
 
 ElementSummary summarize(const Element& element) {
     ElementSummary s;
@@ -47,7 +47,7 @@ ElementSummary summarize(const Element& element) {
             s.max_turning_deg = std::abs(turning_deg);
             s.max_turning_at = points[i];
         }
-        if (turning_deg > sharp_corner_deg) ++s.sharp_corners;
+        if (turning_deg > geometry::sharp_corner_deg) ++s.sharp_corners;
     }
     OutlineFeatures features;
     find_trailing_edge(points, features);
@@ -55,6 +55,12 @@ ElementSummary summarize(const Element& element) {
     s.trailing_edge = features.trailing_edge;
     return s;
 }
+
+}  // namespace lamina::surface
+
+namespace lamina {
+
+using namespace surface;
 
 std::string describe(const Geometry& geometry) {
     std::string text;

@@ -1,6 +1,7 @@
 // An outline loses samples that say little, is cut at its corners, and each stretch between two corners is replaced by
 // a spline that is divided anew.
 #include "surface/resample.hpp"
+#include "geometry/sharp_corner.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -216,7 +217,7 @@ SpacingRule make_spacing_rule(const ResamplingRequest& request, const ChordEnds&
     rule.gradation = std::min(
         {margin * 2 * (options.max_ratio - 1) / (options.max_ratio + 1), options.gradation, request.limits.gradation});
     rule.max_corner_ratio = options.max_ratio;
-    for (const WallSpacing& wall : request.limits.walls)
+    for (const geometry::WallSpacing& wall : request.limits.walls)
         if (wall.element == element) rule.walls.push_back(wall);
     rule.clearance_share = options.gap_spacing;
     rule.clearance = [&walls = request.walls, element, min_own_clearance = options.corner_spacing * scale,
@@ -323,7 +324,7 @@ double ResamplingRequest::max_turning_deg() const { return std::min(options.max_
 
 double ResamplingRequest::corner_spacing(std::size_t element, double turning, double extent, bool is_given) const {
     if (is_given && std::abs(core::degrees(turning)) <= max_turning_deg()) return HUGE_VAL;
-    if (turning <= core::radians(sharp_corner_deg)) return options.corner_spacing * extent;
+    if (turning <= core::radians(geometry::sharp_corner_deg)) return options.corner_spacing * extent;
     const double by_options = options.sharp_corner_spacing * extent;
     std::optional<double> by_fans =
         limits.fan_spacings.empty() ? limits.fan_spacing : std::optional(limits.fan_spacings[element]);

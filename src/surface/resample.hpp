@@ -10,6 +10,7 @@
 
 #include "surface/clearance.hpp"
 #include "surface/spacing.hpp"
+#include "surface/spacing_limits.hpp"
 
 namespace lamina::surface {
 

@@ -75,7 +75,7 @@ void limit_near_walls(CurveSamples& samples, const SpacingRule& rule) {
     if (rule.walls.empty()) return;
     std::vector<Box> boxes;
     std::vector<double> spacings;
-    for (const WallSpacing& wall : rule.walls) {
+    for (const geometry::WallSpacing& wall : rule.walls) {
         boxes.push_back(core::bounding_box(wall.a, wall.b));
         spacings.push_back(wall.spacing);
     }

@@ -10,6 +10,7 @@
 #include <lamina/geometry.hpp>
 #include <lamina/point.hpp>
 
+#include "geometry/wall_spacing.hpp"
 #include "surface/spline.hpp"
 
 namespace lamina::surface {
@@ -31,8 +32,8 @@ struct SpacingRule {
     /// Returns the free room outside of a point of the outline, given the point and the outward unit normal there. May
     /// be empty.
     std::function<double(Point, Point)> clearance;
-    double clearance_share;          ///< largest spacing as a share of the free room
-    std::vector<WallSpacing> walls;  ///< largest spacings at stretches of the outline
+    double clearance_share;                    ///< largest spacing as a share of the free room
+    std::vector<geometry::WallSpacing> walls;  ///< largest spacings at stretches of the outline
     /// Bounds that hold at the nearest point of the outline each. They may be below min_spacing.
     std::vector<PointSpacing> point_spacings;
 };

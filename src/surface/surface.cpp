@@ -19,6 +19,7 @@
 #include "surface/resample.hpp"
 #include "surface/smooth_run.hpp"
 #include "surface/smoothing_spline.hpp"
+#include "surface/spacing_limits.hpp"
 #include "surface/trailing_edge.hpp"
 
 namespace lamina::surface {
@@ -169,14 +170,8 @@ void straighten_crossing(Geometry& geometry, std::vector<Plan>& plans, const Geo
 
 }  // namespace
 
-}  // namespace lamina::surface
-
-namespace lamina {
-
-using namespace surface;
-
-Geometry prepare_surfaces(Geometry given, const SurfaceOptions& options, const SpacingLimits& limits,
-                          std::optional<double> chord) {
+Geometry prepare_within(Geometry given, const SurfaceOptions& options, const SpacingLimits& limits,
+                        std::optional<double> chord) {
     validate(options);
     for (Element& e : given.elements) e.features.corners = find_corners(e);
     if (options.smooth) {
@@ -215,6 +210,14 @@ Geometry prepare_surfaces(Geometry given, const SurfaceOptions& options, const S
     if (options.exact_points) require_number_of_points(result, *options.points);
     for (Element& e : result.elements) find_trailing_edge(e.points, e.features);
     return result;
+}
+
+}  // namespace lamina::surface
+
+namespace lamina {
+
+Geometry prepare_surfaces(Geometry geometry, const SurfaceOptions& options, std::optional<double> chord) {
+    return surface::prepare_within(std::move(geometry), options, {}, chord);
 }
 
 }  // namespace lamina

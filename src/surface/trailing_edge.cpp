@@ -1,4 +1,5 @@
 #include "surface/trailing_edge.hpp"
+#include "geometry/sharp_corner.hpp"
 
 #include <cmath>
 #include <optional>
@@ -48,7 +49,7 @@ Point trailing_edge_of(std::span<const Point> points, std::span<const double> tu
     for (std::size_t i = 0; i < points.size(); ++i) {
         const Point p = points[i];
         if (p.x > rearmost.x || (p.x == rearmost.x && p.y < rearmost.y)) rearmost = p;
-        const bool is_sharp = core::degrees(turning[i]) > sharp_corner_deg && p.x > middle_x;
+        const bool is_sharp = core::degrees(turning[i]) > geometry::sharp_corner_deg && p.x > middle_x;
         const bool is_at_base = base && (i == base->first || i == base->last);
         if (is_sharp && !is_at_base && (!corner || p.x > corner->x)) corner = p;
     }

@@ -6,6 +6,7 @@
 #include <lamina/error.hpp>
 
 #include "adaptation/fields.hpp"
+#include "adaptation/hessian.hpp"
 
 namespace lamina::test {
 namespace {
@@ -19,12 +20,12 @@ std::vector<char> outer_vertices(const Mesh& mesh) {
 }
 
 TEST(Hessian, LargestCurvatureIsTheLargerEigenvalue) {
-    EXPECT_DOUBLE_EQ(largest_curvature({2, 0, -3}), 3);
-    EXPECT_DOUBLE_EQ(largest_curvature({0, 1, 0}), 1);
-    EXPECT_DOUBLE_EQ(largest_curvature({-4, 0, -1}), 4);
-    EXPECT_EQ(largest_curvature({}), 0);
+    EXPECT_DOUBLE_EQ(adaptation::largest_curvature({2, 0, -3}), 3);
+    EXPECT_DOUBLE_EQ(adaptation::largest_curvature({0, 1, 0}), 1);
+    EXPECT_DOUBLE_EQ(adaptation::largest_curvature({-4, 0, -1}), 4);
+    EXPECT_EQ(adaptation::largest_curvature({}), 0);
     // A rotation by 30 degrees of diag(5, 1).
-    EXPECT_NEAR(largest_curvature({4, std::sqrt(3.0), 2}), 5, 1e-12);
+    EXPECT_NEAR(adaptation::largest_curvature({4, std::sqrt(3.0), 2}), 5, 1e-12);
 }
 
 TEST(Hessian, QuadraticsAreExactUpToTheBorders) {
@@ -39,7 +40,7 @@ TEST(Hessian, QuadraticsAreExactUpToTheBorders) {
             SolutionField field = field_of(mesh, quadratic, at_cells);
             for (std::size_t i = 0; i < field.values.size(); ++i)
                 if (at_cells ? mesh.region[i] == Region::layer : outer[i] == 0) field.values[i] = 1e6 * double(i % 7);
-            const std::vector<Hessian> hessians = recover_hessians(mesh, field);
+            const std::vector<adaptation::Hessian> hessians = adaptation::recover_hessians(mesh, field);
             for (std::size_t v = 0; v < hessians.size(); ++v) {
                 const bool is_outer = outer[v] != 0;
                 ASSERT_NEAR(hessians[v].xx, is_outer ? 4 : 0, 1e-4) << v;
@@ -54,9 +55,9 @@ TEST(Hessian, FieldsMustFitTheMesh) {
     const Mesh mesh = generate_mesh(one_section(), near_options()).mesh;
     SolutionField field = field_of(mesh, [](Point p) { return p.x; });
     field.values.pop_back();
-    EXPECT_THROW(recover_hessians(mesh, field), OptionError);
+    EXPECT_THROW(adaptation::recover_hessians(mesh, field), OptionError);
     field.at_cells = true;
-    EXPECT_THROW(recover_hessians(mesh, field), OptionError);
+    EXPECT_THROW(adaptation::recover_hessians(mesh, field), OptionError);
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include <lamina/surface.hpp>
 
 #include "app/program.hpp"
+#include "layers/layer.hpp"
 #include "support/layers.hpp"
 
 namespace lamina::test {

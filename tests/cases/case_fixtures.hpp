@@ -10,6 +10,7 @@
 
 #include <lamina/solver_case.hpp>
 
+#include "cases/case_files.hpp"
 #include "support/sample_meshes.hpp"
 
 namespace lamina::test {
@@ -22,7 +23,7 @@ inline SolverConditions some_conditions(double alpha_deg = 10) {
 inline Mesh case_mesh() { return annulus({.quads_in_layer = true}); }
 
 /// Returns the text of a file of a case; fails where there is none.
-inline std::string text_of(const std::vector<SolverCaseFile>& files, const std::string& name) {
+inline std::string text_of(const std::vector<cases::SolverCaseFile>& files, const std::string& name) {
     const auto file = std::find_if(files.begin(), files.end(), [&](const auto& f) { return f.name == name; });
     EXPECT_NE(file, files.end()) << name;
     return file == files.end() ? "" : file->text;

@@ -11,7 +11,9 @@
 #include <lamina/error.hpp>
 #include <lamina/io.hpp>
 
+#include "cases/case_files.hpp"
 #include "cases/case_fixtures.hpp"
+#include "io/openfoam_span.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace lamina {
@@ -24,8 +26,9 @@ using test::TemporaryFolder;
 using test::text_of;
 using test::value_of;
 
-std::vector<SolverCaseFile> openfoam_files(const SolverConditions& conditions, const SolverCaseOptions& options = {}) {
-    return solver_case_files(FlowSolver::openfoam, case_mesh(), conditions, options);
+std::vector<cases::SolverCaseFile> openfoam_files(const SolverConditions& conditions,
+                                                  const SolverCaseOptions& options = {}) {
+    return cases::solver_case_files(FlowSolver::openfoam, case_mesh(), conditions, options);
 }
 
 TEST(SolverCase, NoPlaceholderIsLeft) {
@@ -37,7 +40,7 @@ TEST(SolverCase, NoPlaceholderIsLeft) {
                 SolverConditions conditions = some_conditions();
                 conditions.wall_functions = special;
                 conditions.reference.mach = 0.2;
-                for (const SolverCaseFile& file : solver_case_files(
+                for (const cases::SolverCaseFile& file : cases::solver_case_files(
                          solver, case_mesh(), conditions, {.turbulence = turbulence, .compressible = special})) {
                     EXPECT_FALSE(std::regex_search(file.text, placeholder)) << name << " " << file.name;
                     EXPECT_EQ(file.executable, file.text.starts_with("#!")) << file.name;
@@ -56,7 +59,7 @@ TEST(OpenFoamCase, ViscosityMakesTheReynoldsNumber) {
         EXPECT_EQ(speed, velocity.value_or(1));
         EXPECT_NEAR(speed * 2 / nu, 4e6, 1e-6);
         EXPECT_EQ(std::stod(value_of(control, "lRef")), 2);
-        EXPECT_EQ(std::stod(value_of(control, "Aref")), 2 * openfoam_span);
+        EXPECT_EQ(std::stod(value_of(control, "Aref")), 2 * io::openfoam_span);
         // nuTilda is 3 nu upstream, which makes nut 0.21 nu by the model.
         EXPECT_NEAR(numbers_in(value_of(text_of(files, "0/nuTilda"), "internalField")).at(0) / nu, 3, 1e-12);
         EXPECT_NEAR(numbers_in(value_of(text_of(files, "0/nut"), "internalField")).at(0) / nu, 0.2104, 1e-4);
@@ -99,7 +102,7 @@ std::set<std::string> fields_of(const SolverCaseOptions& options) {
     SolverConditions conditions = some_conditions();
     conditions.reference.mach = 0.2;
     std::set<std::string> fields;
-    for (const SolverCaseFile& file : openfoam_files(conditions, options)) {
+    for (const cases::SolverCaseFile& file : openfoam_files(conditions, options)) {
         if (!file.name.string().starts_with("0/")) continue;
         fields.insert(file.name.filename().string());
         EXPECT_EQ(patches_of(file.text), (std::vector<std::string>{"wall", "farfield", "frontAndBack"})) << file.name;
@@ -123,7 +126,7 @@ TEST(OpenFoamCase, NamesItsWallsOneByOne) {
     Mesh mesh = case_mesh();
     mesh.markers.push_back({"flap-2", MarkerKind::wall, {mesh.markers[0].edges.back()}});
     mesh.markers[0].edges.pop_back();
-    const auto files = solver_case_files(FlowSolver::openfoam, mesh, some_conditions(), {});
+    const auto files = cases::solver_case_files(FlowSolver::openfoam, mesh, some_conditions(), {});
     for (const char* field : {"0/U", "0/p", "0/nut", "0/nuTilda"})
         EXPECT_EQ(patches_of(text_of(files, field)),
                   (std::vector<std::string>{"\"(wall|flap-2)\"", "farfield", "frontAndBack"}));
@@ -164,7 +167,7 @@ TEST(OpenFoamCase, InletAndOutletBothHaveTheFarFieldsConditions) {
     Marker outlet{"outlet", MarkerKind::far_field, {far.edges.begin() + half, far.edges.end()}};
     far.edges.resize(static_cast<std::size_t>(half));
     mesh.markers.push_back(outlet);
-    const auto files = solver_case_files(FlowSolver::openfoam, mesh, some_conditions());
+    const auto files = cases::solver_case_files(FlowSolver::openfoam, mesh, some_conditions());
     EXPECT_EQ(patches_of(text_of(files, "0/U")).at(1), "\"(inlet|outlet)\"");
     EXPECT_NE(text_of(files, "Allrun").find("far_fields=\"inlet outlet\""), std::string::npos);
 }
@@ -183,13 +186,14 @@ TEST(SolverCase, RefusesWhatNoCaseCanBeMadeOf) {
     for (const std::size_t missing : {0u, 1u}) {
         Mesh mesh = case_mesh();
         mesh.markers[missing].kind = MarkerKind::other;
-        EXPECT_THROW(solver_case_files(FlowSolver::openfoam, mesh, some_conditions()), MeshError);
+        EXPECT_THROW(cases::solver_case_files(FlowSolver::openfoam, mesh, some_conditions()), MeshError);
     }
 }
 
 TEST(SolverCase, LargeAnglesAreApproachedFromTenDegrees) {
     const auto angles = [](FlowSolver solver, double alpha) {
-        const std::string run = text_of(solver_case_files(solver, case_mesh(), some_conditions(alpha)), "Allrun");
+        const std::string run =
+            text_of(cases::solver_case_files(solver, case_mesh(), some_conditions(alpha)), "Allrun");
         const std::size_t begin = run.find("angles=\"") + 8;
         return run.substr(begin, run.find('"', begin) - begin);
     };
@@ -204,8 +208,8 @@ TEST(SolverCase, LargeAnglesAreApproachedFromTenDegrees) {
 }
 
 TEST(SolverCase, Su2GetsNoTrianglesInTheLayer) {
-    EXPECT_THROW(solver_case_files(FlowSolver::su2, test::annulus(), some_conditions()), UsageError);
-    EXPECT_NO_THROW(solver_case_files(FlowSolver::su2, case_mesh(), some_conditions()));
+    EXPECT_THROW(cases::solver_case_files(FlowSolver::su2, test::annulus(), some_conditions()), UsageError);
+    EXPECT_NO_THROW(cases::solver_case_files(FlowSolver::su2, case_mesh(), some_conditions()));
 }
 
 /// Returns the flow round NACA 0012, without boundary layers.

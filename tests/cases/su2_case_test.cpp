@@ -8,6 +8,7 @@
 
 #include <lamina/files.hpp>
 
+#include "cases/case_files.hpp"
 #include "cases/case_fixtures.hpp"
 
 namespace lamina {
@@ -32,7 +33,8 @@ std::map<std::string, std::string> su2_options(const std::string& text) {
 
 std::map<std::string, std::string> options_of_case(const SolverConditions& conditions,
                                                    const SolverCaseOptions& options = {}) {
-    return su2_options(test::text_of(solver_case_files(FlowSolver::su2, case_mesh(), conditions, options), "case.cfg"));
+    return su2_options(
+        test::text_of(cases::solver_case_files(FlowSolver::su2, case_mesh(), conditions, options), "case.cfg"));
 }
 
 TEST(Su2Case, EveryOptionIsOneOfSu2) {

@@ -5,22 +5,24 @@
 
 #include <lamina/limits.hpp>
 
+#include "core/limits.hpp"
+
 namespace lamina::test {
 namespace {
 
 constexpr WorkCost plain_cost{1000, 10, 1e-6};
 
 TEST(Limits, MemoryIsReadAndPrinted) {
-    EXPECT_EQ(parse_memory("1000000"), 1'000'000u);
-    EXPECT_EQ(parse_memory("500M"), std::size_t{500} << 20);
-    EXPECT_EQ(parse_memory("2G"), std::size_t{2} << 30);
-    EXPECT_EQ(parse_memory("1.5GiB"), std::size_t{3} << 29);
-    EXPECT_EQ(parse_memory("64kb"), std::size_t{64} << 10);
+    EXPECT_EQ(core::parse_memory("1000000"), 1'000'000u);
+    EXPECT_EQ(core::parse_memory("500M"), std::size_t{500} << 20);
+    EXPECT_EQ(core::parse_memory("2G"), std::size_t{2} << 30);
+    EXPECT_EQ(core::parse_memory("1.5GiB"), std::size_t{3} << 29);
+    EXPECT_EQ(core::parse_memory("64kb"), std::size_t{64} << 10);
     for (const char* text : {"", "G", "-1G", "1X", "1GG", "nan", "1 G", "0", "1e400", "99999999T"})
-        EXPECT_THROW(parse_memory(text), UsageError) << text;
+        EXPECT_THROW(core::parse_memory(text), UsageError) << text;
     for (const std::size_t bytes : {std::size_t{1}, std::size_t{1000}, std::size_t{3} << 20, std::size_t{5} << 40})
-        EXPECT_EQ(parse_memory(memory_text(bytes)), bytes);
-    EXPECT_EQ(memory_text(std::size_t{3} << 29), "1536M");
+        EXPECT_EQ(core::parse_memory(core::memory_text(bytes)), bytes);
+    EXPECT_EQ(core::memory_text(std::size_t{3} << 29), "1536M");
 }
 
 TEST(Limits, EstimatesGrowWithTheTriangles) {
@@ -55,7 +57,7 @@ TEST(Limits, RunsBeyondThemAreRefusedWithTheEstimate) {
 }
 
 TEST(Limits, AllowedTrianglesSuitAllLimits) {
-    EXPECT_EQ(allowed_triangles({}, plain_cost), max_numbered_triangles);
+    EXPECT_EQ(allowed_triangles({}, plain_cost), core::max_numbered_triangles);
     EXPECT_EQ(allowed_triangles({500, {}}, plain_cost), 500);
     EXPECT_EQ(allowed_triangles({500, 2000}, plain_cost), 100);
     EXPECT_EQ(allowed_triangles({{}, 10}, plain_cost), 0);

@@ -10,15 +10,17 @@
 
 #include <lamina/marker_names.hpp>
 
+#include "core/marker_names.hpp"
+
 namespace lamina {
 namespace {
 
-std::string legal_wall(const std::string& name) { return legal_marker_name({name, MarkerKind::wall}); }
+std::string legal_wall(const std::string& name) { return legal_marker_name(name, MarkerKind::wall); }
 
 std::vector<std::string> legal_walls(const std::vector<std::string>& names) {
-    std::vector<NamedMarker> markers;
+    std::vector<core::NamedMarker> markers;
     for (const std::string& name : names) markers.push_back({name, MarkerKind::wall});
-    return legal_marker_names(markers);
+    return core::legal_marker_names(markers);
 }
 
 TEST(MarkerNames, LegalOnesStay) {
@@ -27,7 +29,7 @@ TEST(MarkerNames, LegalOnesStay) {
         EXPECT_EQ(legal_wall(name), name);
     for (const MarkerKind kind : {MarkerKind::far_field, MarkerKind::symmetry, MarkerKind::other})
         for (const std::string name : {"farfield", "inlet", "Outlet", "symmetry"})
-            EXPECT_EQ(legal_marker_name({name, kind}), name);
+            EXPECT_EQ(legal_marker_name(name, kind), name);
 }
 
 TEST(MarkerNames, OthersAreChangedSoThatTheyStillSayWhatWasMeant) {
@@ -51,16 +53,16 @@ TEST(MarkerNames, OthersAreChangedSoThatTheyStillSayWhatWasMeant) {
     EXPECT_EQ(legal_wall("frontAndBack"), "wall_frontAndBack");
     EXPECT_EQ(legal_wall("FarField 1"), "wall_FarField_1");
     EXPECT_EQ(legal_wall("inlet"), "wall_inlet");
-    EXPECT_EQ(legal_marker_name({"7", MarkerKind::far_field}), "far_7");
-    EXPECT_EQ(legal_marker_name({"7", MarkerKind::symmetry}), "symmetry_7");
-    EXPECT_EQ(legal_marker_name({"7", MarkerKind::other}), "marker_7");
+    EXPECT_EQ(legal_marker_name("7", MarkerKind::far_field), "far_7");
+    EXPECT_EQ(legal_marker_name("7", MarkerKind::symmetry), "symmetry_7");
+    EXPECT_EQ(legal_marker_name("7", MarkerKind::other), "marker_7");
 }
 
 // A format without kinds tells them by names.
 TEST(MarkerNames, ChangedOnesReadAsTheirKind) {
     for (const MarkerKind kind : {MarkerKind::wall, MarkerKind::far_field, MarkerKind::symmetry, MarkerKind::other})
-        EXPECT_EQ(kind_of_name(legal_marker_name({"2", kind})), kind);
-    EXPECT_TRUE(may_be_wall(kind_of_name(legal_wall("farfield"))));
+        EXPECT_EQ(core::kind_of_name(legal_marker_name("2", kind)), kind);
+    EXPECT_TRUE(may_be_wall(core::kind_of_name(legal_wall("farfield"))));
 }
 
 TEST(MarkerNames, AreDistinguishedWhateverTheCase) {
@@ -77,13 +79,13 @@ TEST(MarkerNames, AreLegalUniqueAndStayForRandomBytes) {
     std::mt19937 random(1);
     const std::string likely = "aA1._-+ \n%$\xC3\xBC";
     for (int trial = 0; trial < 2000; ++trial) {
-        std::vector<NamedMarker> markers(1 + random() % 12);
-        for (NamedMarker& marker : markers) {
+        std::vector<core::NamedMarker> markers(1 + random() % 12);
+        for (core::NamedMarker& marker : markers) {
             marker.kind = static_cast<MarkerKind>(random() % 4);
             for (unsigned n = random() % (trial % 2 == 0 ? 4 : 40); n > 0; --n)
                 marker.name += likely[random() % likely.size()];
         }
-        const std::vector<std::string> names = legal_marker_names(markers);
+        const std::vector<std::string> names = core::legal_marker_names(markers);
         ASSERT_EQ(names.size(), markers.size());
         std::set<std::string> used;
         for (std::size_t i = 0; i < names.size(); ++i) {
@@ -93,19 +95,19 @@ TEST(MarkerNames, AreLegalUniqueAndStayForRandomBytes) {
             EXPECT_TRUE(std::all_of(name.begin(), name.end(), [](char c) {
                 return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-' || c == '.';
             })) << name;
-            EXPECT_LE(name.size(), max_marker_name);
+            EXPECT_LE(name.size(), core::max_marker_name);
             std::string lower;
             for (const char c : name) lower += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
             EXPECT_TRUE(used.insert(lower).second) << name;
             markers[i].name = name;
         }
-        EXPECT_EQ(legal_marker_names(markers), names);
+        EXPECT_EQ(core::legal_marker_names(markers), names);
     }
 }
 
 TEST(MarkerNames, TheWarningSaysBothNamesAndWhy) {
     const auto message = [](const std::string& name) {
-        return renamed_marker_warning({name, MarkerKind::wall}, legal_wall(name)).message;
+        return core::renamed_marker_warning({name, MarkerKind::wall}, legal_wall(name)).message;
     };
     EXPECT_EQ(message("0012"), "the name '0012' does not begin with a letter: the marker is 'wall_0012'");
     EXPECT_EQ(message("a b"),
@@ -113,7 +115,8 @@ TEST(MarkerNames, TheWarningSaysBothNamesAndWhy) {
     EXPECT_NE(message("none").find("means something else to a format or a solver"), std::string::npos);
     EXPECT_NE(message("Inlet").find("reads as that of an outer boundary"), std::string::npos);
     EXPECT_NE(message(std::string(33, 'x')).find("more than 32 characters"), std::string::npos);
-    EXPECT_NE(renamed_marker_warning({"a", MarkerKind::wall}, "a_2").message.find("by case alone"), std::string::npos);
+    EXPECT_NE(core::renamed_marker_warning({"a", MarkerKind::wall}, "a_2").message.find("by case alone"),
+              std::string::npos);
 }
 
 }  // namespace

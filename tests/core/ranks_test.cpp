@@ -9,7 +9,6 @@
 #include <vector>
 
 #include <lamina/error.hpp>
-#include <lamina/ranks.hpp>
 
 #include "support/thread_ranks.hpp"
 
@@ -22,7 +21,7 @@ TEST(Ranks, JoinTheirBytesInTheirOrder) {
     for (const unsigned n : {1u, 2u, 3u, 4u, 5u, 7u, 8u}) {
         SCOPED_TRACE(n);
         std::vector<std::size_t> joins(n);
-        const std::string failure = run_ranks(n, [&](Ranks& ranks) {
+        const std::string failure = run_ranks(n, [&](core::ConnectedRanks& ranks) {
             const std::string own(1, static_cast<char>('a' + ranks.rank()));
             for (int repeat = 0; repeat < 20; ++repeat) {
                 const std::string all = ranks.reduce(own, [&](std::string_view one, std::string_view other) {
@@ -47,7 +46,7 @@ TEST(Ranks, TellSomeOthers) {
     for (const unsigned n : {1u, 2u, 5u, 8u})
         for (unsigned members = 1; members <= n; ++members) {
             SCOPED_TRACE(testing::Message() << members << " of " << n);
-            const std::string failure = run_ranks(n, [&](Ranks& ranks) {
+            const std::string failure = run_ranks(n, [&](core::ConnectedRanks& ranks) {
                 for (int repeat = 0; ranks.rank() < members && repeat < 20; ++repeat) {
                     std::vector<std::string> expected;
                     for (unsigned rank = 0; rank < members; ++rank)
@@ -67,7 +66,7 @@ TEST(Ranks, TellAllWhileTheyGoOn) {
         for (const unsigned late : {0u, n / 2, n - 1}) {
             SCOPED_TRACE(testing::Message() << late << " of " << n);
             std::atomic<unsigned> others = 0;
-            const std::string failure = run_ranks(n, [&](Ranks& ranks) {
+            const std::string failure = run_ranks(n, [&](core::ConnectedRanks& ranks) {
                 for (int repeat = 0; repeat < 3; ++repeat) {
                     std::vector<std::string> expected;
                     for (unsigned rank = 0; rank < n; ++rank)
@@ -91,7 +90,7 @@ TEST(Ranks, TellAllWhileTheyGoOn) {
 // A rank that does not take what it is told passes it on still.
 TEST(Ranks, PassOnWhatTheyDoNotNeed) {
     EXPECT_EQ(run_ranks(12,
-                        [](Ranks& ranks) {
+                        [](core::ConnectedRanks& ranks) {
                             const auto pending = ranks.start_all_gather("bytes");
                             if (ranks.rank() == 1) throw MeshError("has no need of it");
                             EXPECT_EQ(pending->take().size(), 12u);
@@ -101,7 +100,7 @@ TEST(Ranks, PassOnWhatTheyDoNotNeed) {
 
 TEST(Ranks, EndTogetherWhereOneCannotJoin) {
     for (const unsigned failing : {0u, 2u}) {
-        const std::string failure = run_ranks(4, [&](Ranks& ranks) {
+        const std::string failure = run_ranks(4, [&](core::ConnectedRanks& ranks) {
             ranks.reduce("bytes", [&](std::string_view one, std::string_view other) {
                 if (ranks.rank() == failing) throw MeshError("cannot be joined");
                 return concatenated(one, other);

@@ -1,19 +1,20 @@
 // Suggestions for misspelt words.
 #include <gtest/gtest.h>
 
-#include <lamina/suggestion.hpp>
+#include "core/edit_distance.hpp"
+#include "core/suggestion.hpp"
 
 namespace lamina::test {
 namespace {
 
 TEST(Suggestion, EditDistanceCountsSwapsOnce) {
-    EXPECT_EQ(edit_distance("", ""), 0u);
-    EXPECT_EQ(edit_distance("abc", ""), 3u);
-    EXPECT_EQ(edit_distance("abc", "abd"), 1u);
-    EXPECT_EQ(edit_distance("abc", "acb"), 1u);
-    EXPECT_EQ(edit_distance("ca", "abc"), 3u);  // the unrestricted distance is 2
-    EXPECT_EQ(edit_distance("kitten", "sitting"), 3u);
-    EXPECT_EQ(edit_distance("heigth", "height"), 1u);
+    EXPECT_EQ(core::edit_distance("", ""), 0u);
+    EXPECT_EQ(core::edit_distance("abc", ""), 3u);
+    EXPECT_EQ(core::edit_distance("abc", "abd"), 1u);
+    EXPECT_EQ(core::edit_distance("abc", "acb"), 1u);
+    EXPECT_EQ(core::edit_distance("ca", "abc"), 3u);  // the unrestricted distance is 2
+    EXPECT_EQ(core::edit_distance("kitten", "sitting"), 3u);
+    EXPECT_EQ(core::edit_distance("heigth", "height"), 1u);
 }
 
 TEST(Suggestion, TheClosestWordIsTheFirstOfEquals) {

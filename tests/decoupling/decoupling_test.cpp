@@ -13,11 +13,15 @@
 #include "decoupling/line_border.hpp"
 #include "decoupling/lines.hpp"
 #include "decoupling/separators.hpp"
+#include "decoupling/subdomain.hpp"
 #include "decoupling/traced_border.hpp"
+#include "sizing/requests.hpp"
 #include "support/point_sets.hpp"
 
 namespace lamina::test {
 namespace {
+
+using namespace decoupling;
 
 /// Returns the border of a body: n points on an ellipse of unit length, whose spacing shrinks evenly by `ratio` from
 /// the middle to the two ends.
@@ -55,7 +59,7 @@ struct Bodies {
             const Point a = loop[i], b = loop[(i + 1) % loop.size()];
             border.push_back(VertexId{points.size()});
             points.push_back(a);
-            sources.push_back({a, b, distance(a, b) / frozen_share});
+            sources.push_back({a, b, distance(a, b) / sizing::frozen_share});
             area += 0.5 * cross(a, b);
         }
     }
@@ -82,7 +86,7 @@ std::size_t expect_global_delaunay(const Bodies& bodies, const Decoupling& d, do
         EXPECT_EQ(r.stats.oversized, 0u);
         for (const Segment& e : s.segments) {
             const Point a = s.points[e.a.index()], b = s.points[e.b.index()];
-            EXPECT_LT(distance(a, b), 1.06 * frozen_share * s.size(midpoint(a, b)))
+            EXPECT_LT(distance(a, b), 1.06 * sizing::frozen_share * s.size(midpoint(a, b)))
                 << "the test's own border is not graded";
         }
         below += r.stats.below_bound - r.stats.exempt;
@@ -129,7 +133,7 @@ TEST(Separators, EquidistributedSegmentsFollowTheField) {
     points.push_back(v);
     for (std::size_t i = 0; i + 1 < points.size(); ++i) {
         const double h = size(midpoint(points[i], points[i + 1])), l = distance(points[i], points[i + 1]);
-        EXPECT_LT(l, 1.06 * frozen_share * h);
+        EXPECT_LT(l, 1.06 * sizing::frozen_share * h);
         EXPECT_GT(l, 0.6 * h);
         if (i > 0) {
             EXPECT_LT(l / distance(points[i - 1], points[i]), 1.25);

@@ -16,6 +16,7 @@
 
 #include "core/difference_packing.hpp"
 #include "decoupling/cut_region.hpp"
+#include "decoupling/far_field.hpp"
 #include "decoupling/lines.hpp"
 #include "decoupling/shared_search.hpp"
 #include "support/thread_ranks.hpp"
@@ -117,7 +118,7 @@ TEST(SharedCuts, AreThoseOfOneProcess) {
             SCOPED_TRACE(n);
             std::atomic<std::size_t> bytes = 0;
             EXPECT_EQ(run_ranks(n,
-                                [&](Ranks& ranks) {
+                                [&](core::ConnectedRanks& ranks) {
                                     decoupling::CutRegion cut = decoupling::cut_region(region, &ranks);
                                     expect_equal(alone, cut);
                                     if (n == 7 && lines > 40) {
@@ -163,7 +164,7 @@ TEST(SharedCuts, LeaveTimeForPieces) {
     SlowCutters::made = false;
     EXPECT_EQ(
         run_ranks<SlowCutters>(n,
-                               [&](Ranks& ranks) {
+                               [&](core::ConnectedRanks& ranks) {
                                    std::mutex mutex;
                                    std::set<std::uint32_t> own;
                                    decoupling::BesideCuts beside;
@@ -201,7 +202,7 @@ TEST(SharedCuts, LeaveTimeForPieces) {
 TEST(SharedCuts, AreRefusedWhereRanksDiffer) {
     const CutCase c = cut_cases().front();
     const SizeField size = size_of(c);
-    const std::string line = run_ranks(3, [&](Ranks& ranks) {
+    const std::string line = run_ranks(3, [&](core::ConnectedRanks& ranks) {
         FarField far_field = c.far_field;
         if (ranks.rank() == 2) far_field.radius *= 0.99;
         const DecouplingOptions options{c.pieces_target};
@@ -244,7 +245,7 @@ TEST(SharedCuts, EndOnAllRanksWhereOneOfTheCuttersFails) {
     for (unsigned failing = 0; failing < cutters; ++failing) {
         SCOPED_TRACE(failing);
         MisledCutter::misled = failing;
-        const std::string line = run_ranks<MisledCutter>(n, [&](Ranks& ranks) {
+        const std::string line = run_ranks<MisledCutter>(n, [&](core::ConnectedRanks& ranks) {
             decoupling::BesideCuts beside;
             beside.make = [](std::uint32_t, const decoupling::LineBorder&, const decoupling::WorkEstimate&,
                              decoupling::Lines&) {};

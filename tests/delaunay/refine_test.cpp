@@ -9,6 +9,7 @@
 #include <lamina/error.hpp>
 
 #include "core/cell_shape.hpp"
+#include "sizing/requests.hpp"
 #include "support/point_sets.hpp"
 #include "support/refinement_checks.hpp"
 #include "support/triangulation_checks.hpp"
@@ -51,7 +52,7 @@ SizeField graded(double min_size, double gradation, double extent) {
 TEST(Refine, UniformSquareMeetsBounds) {
     for (double angle : {20.7, 28.0, 30.0}) {
         const double h = 0.02;
-        const Border border = square_border(1, frozen_share * h);
+        const Border border = square_border(1, sizing::frozen_share * h);
         const SizeField size(h);
         const RefineOptions options{.min_angle_deg = angle};
         const Refinement r = refine(border.points, border.segments, size, options);
@@ -107,7 +108,7 @@ std::vector<Point> graded_points(Point u, Point v, const SizeField& size) {
     std::vector<double> integral{0};
     for (std::size_t i = 0; i < steps; ++i)
         integral.push_back(integral.back() + distance(u, v) / steps / size(midpoint(at(i), at(i + 1))));
-    const auto n = static_cast<std::size_t>(std::ceil(integral.back() / frozen_share));
+    const auto n = static_cast<std::size_t>(std::ceil(integral.back() / sizing::frozen_share));
     std::vector<Point> points;
     for (std::size_t k = 1, i = 0; k < n; ++k) {
         while (integral[i] < integral.back() * static_cast<double>(k) / static_cast<double>(n)) ++i;
@@ -304,7 +305,7 @@ TEST(Refine, ATighterBoundOfAreasIsKept) {
 TEST(Refine, LatticePatchesKeepEveryPromise) {
     for (double angle : {20.7, 30.0}) {
         const double h = 0.008;
-        const Border border = square_border(1, frozen_share * h);
+        const Border border = square_border(1, sizing::frozen_share * h);
         const SizeField size(h);
         const RefineOptions with_lattice{.min_angle_deg = angle},
             without_lattice{.min_angle_deg = angle, .lattice = false};
@@ -400,8 +401,8 @@ TEST(Refine, LatticePatchesStayOutOfHolesNotchesAndThinParts) {
     const double h = 0.01;
     Border border;
     border.add_loop({{0, 0}, {2, 0}, {2, 0.05}, {1.2, 0.06}, {1.2, 1}, {1.02, 0.1}, {1, 1}, {0.5, 1.2}, {0, 1}},
-                    frozen_share * h);
-    border.add_loop({{0.3, 0.3}, {0.35, 0.7}, {0.7, 0.75}, {0.6, 0.3}}, frozen_share * h);
+                    sizing::frozen_share * h);
+    border.add_loop({{0.3, 0.3}, {0.35, 0.7}, {0.7, 0.75}, {0.6, 0.3}}, sizing::frozen_share * h);
     const SizeField size(h);
     const RefineOptions options;
     const Refinement r = refine(border.points, border.segments, size, options);
@@ -423,7 +424,7 @@ TEST(Refine, LatticePatchesOfRandomPolygons) {
         }
         const double h = random.real(0.008, 0.03);
         Border border;
-        border.add_loop(corners, frozen_share * h);
+        border.add_loop(corners, sizing::frozen_share * h);
         const SizeField size(h);
         const RefineOptions options;
         expect_promises(border, refine(border.points, border.segments, size, options), size, options,
@@ -488,7 +489,7 @@ TEST(Refine, RandomConvexPolygons) {
         }
         const double h = random.real(0.02, 0.1);
         Border border;
-        border.add_loop(corners, frozen_share * h);
+        border.add_loop(corners, sizing::frozen_share * h);
         const SizeField size(h);
         const RefineOptions options;
         const Refinement r = refine(border.points, border.segments, size, options);

@@ -14,6 +14,7 @@
 #include <lamina/flow.hpp>
 
 #include "flow/mapped_section.hpp"
+#include "flow/panel_system.hpp"
 #include "support/shapes.hpp"
 
 namespace lamina::test {
@@ -62,7 +63,7 @@ TEST_P(MappedFlow, LiftAndPressuresAreExact) {
     EXPECT_NEAR(flow.lift, lift, 1e-3 * scale);
     EXPECT_NEAR(flow.elements[0].lift, lift, 2e-3 * scale);
     double fastest = 0;
-    for (const double strength : flow.sheets[0].strengths) fastest = std::max(fastest, std::abs(strength));
+    for (const double strength : flow.panels->sheets[0].strengths) fastest = std::max(fastest, std::abs(strength));
     EXPECT_LT(largest_pressure_error(flow, section, alpha_deg * degree, 0.02), 0.004 * fastest * fastest);
 }
 

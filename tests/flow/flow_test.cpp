@@ -13,6 +13,8 @@
 
 #include "flow/contour.hpp"
 #include "flow/mapped_section.hpp"
+#include "flow/panel_system.hpp"
+#include "flow/potential.hpp"
 #include "flow/sample_configurations.hpp"
 #include "flow/sides.hpp"
 #include "support/shapes.hpp"
@@ -30,7 +32,7 @@ Geometry moved(Geometry g, double scale, Point shift) {
 
 double max_speed(const Flow& flow) {
     double fastest = 0;
-    for (const PanelSheet& sheet : flow.sheets)
+    for (const flow::PanelSheet& sheet : flow::sheets_of(flow))
         for (const double strength : sheet.strengths) fastest = std::max(fastest, std::abs(strength));
     return fastest;
 }
@@ -38,7 +40,7 @@ double max_speed(const Flow& flow) {
 void expect_sound(const Flow& flow, std::size_t elements) {
     ASSERT_FALSE(flow.estimated) << flow.warnings[0].message;
     ASSERT_EQ(flow.elements.size(), elements);
-    ASSERT_EQ(flow.sheets.size(), elements);
+    ASSERT_EQ(flow.panels->sheets.size(), elements);
     EXPECT_TRUE(flow.warnings.empty());
     double sum = 0;
     for (const ElementFlow& element : flow.elements) {
@@ -96,7 +98,7 @@ TEST(Flow, PowersOfTwoScaleItBitForBit) {
         const Flow scaled = solve_flow(moved(given, scale, {}), {.alpha_deg = 7});
         EXPECT_EQ(scaled.lift, flow.lift);
         for (std::size_t e = 0; e < 3; ++e) {
-            EXPECT_EQ(scaled.sheets[e].strengths, flow.sheets[e].strengths);
+            EXPECT_EQ(scaled.panels->sheets[e].strengths, flow.panels->sheets[e].strengths);
             EXPECT_EQ(scaled.elements[e].stagnation, scale * flow.elements[e].stagnation);
             EXPECT_EQ(scaled.elements[e].lift, flow.elements[e].lift);
         }
@@ -109,7 +111,7 @@ TEST(Flow, DoesNotDependOnTheNumberOfThreads) {
     with_threads(1, [&] { one = solve_flow(given, {.alpha_deg = 4}); });
     with_threads(8, [&] { eight = solve_flow(given, {.alpha_deg = 4}); });
     EXPECT_EQ(one.lift, eight.lift);
-    for (std::size_t e = 0; e < 3; ++e) EXPECT_EQ(one.sheets[e].strengths, eight.sheets[e].strengths);
+    for (std::size_t e = 0; e < 3; ++e) EXPECT_EQ(one.panels->sheets[e].strengths, eight.panels->sheets[e].strengths);
 }
 
 TEST(Flow, HardlyDependsOnShiftsAndOtherScales) {
@@ -170,7 +172,7 @@ TEST(Flow, BluntTrailingEdgesActLikeSharpOnes) {
     }
     // The sources of the base fill a wake as wide as the base with the speed at the trailing edge.
     const Flow wide = solve(0.01);
-    EXPECT_NEAR(wide.sheets[0].base_source, wide.elements[0].upper.back().speed, 0.03);
+    EXPECT_NEAR(wide.panels->sheets[0].base_source, wide.elements[0].upper.back().speed, 0.03);
 }
 
 /// Returns the section bent on an arc of 130 degrees, so that its tail points down by 65.
@@ -238,7 +240,7 @@ TEST(Flow, AnyBodyIsSolvedOrEstimated) {
             for (const auto* side : {&flow.elements[0].upper, &flow.elements[0].lower})
                 for (const FlowPoint& p : *side) {
                     ASSERT_TRUE(std::isfinite(p.speed) && std::isfinite(p.s));
-                    ASSERT_LE(p.speed, max_flow_speed);
+                    ASSERT_LE(p.speed, flow::max_flow_speed);
                 }
         }
     std::mt19937 random(3);
@@ -289,17 +291,17 @@ TEST(Flow, AShareOfTheLiftIsAsGoodAFlow) {
                                   geometry({shapes::circle(0.5, 200)})}) {
         const Flow flow = solve_flow(given, {.alpha_deg = 7});
         ASSERT_FALSE(flow.estimated);
-        ASSERT_EQ(flow.sheets_without_lift.size(), flow.sheets.size());
-        for (std::size_t e = 0; e < flow.sheets.size(); ++e)
-            EXPECT_NEAR(flow::circulation(flow.sheets_without_lift[e]), 0, 2e-6);
-        const Flow weaker = with_share_of_lift(flow, 0.6), same = with_share_of_lift(flow, 1);
-        for (std::size_t e = 0; e < flow.sheets.size(); ++e) {
-            const double with = flow::circulation(flow.sheets[e]);
-            EXPECT_NEAR(flow::circulation(weaker.sheets[e]), 0.6 * with, 2e-6);
+        ASSERT_EQ(flow.panels->without_lift.size(), flow.panels->sheets.size());
+        for (std::size_t e = 0; e < flow.panels->sheets.size(); ++e)
+            EXPECT_NEAR(flow::circulation(flow.panels->without_lift[e]), 0, 2e-6);
+        const Flow weaker = flow::with_share_of_lift(flow, 0.6), same = flow::with_share_of_lift(flow, 1);
+        for (std::size_t e = 0; e < flow.panels->sheets.size(); ++e) {
+            const double with = flow::circulation(flow.panels->sheets[e]);
+            EXPECT_NEAR(flow::circulation(weaker.panels->sheets[e]), 0.6 * with, 2e-6);
             std::size_t leaks = 0;
-            const std::vector<Point>& nodes = weaker.sheets[e].nodes;
+            const std::vector<Point>& nodes = weaker.panels->sheets[e].nodes;
             for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
-                EXPECT_NEAR(same.sheets[e].strengths[i], flow.sheets[e].strengths[i], 1e-9);
+                EXPECT_NEAR(same.panels->sheets[e].strengths[i], flow.panels->sheets[e].strengths[i], 1e-9);
                 const Point along = unit(nodes[i + 1] - nodes[i]);
                 leaks += std::abs(cross(along, flow_velocity(weaker, midpoint(nodes[i], nodes[i + 1])))) > 0.01;
             }
@@ -311,7 +313,7 @@ TEST(Flow, AShareOfTheLiftIsAsGoodAFlow) {
 /// The exact flow round a circle without circulation is twice as fast at its sides as the free stream.
 TEST(Flow, ACircleWithoutLiftHasItsExactSpeeds) {
     const Flow flow = solve_flow(geometry({shapes::circle(1, 300)}), {.alpha_deg = 20});
-    const PanelSheet& sheet = flow.sheets_without_lift.front();
+    const flow::PanelSheet& sheet = flow.panels->without_lift.front();
     const double alpha = 20 * M_PI / 180;
     for (std::size_t i = 0; i < sheet.nodes.size(); ++i) {
         const Point p = sheet.nodes[i];

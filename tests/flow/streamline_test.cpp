@@ -9,6 +9,7 @@
 
 #include "core/segments.hpp"
 #include "flow/mapped_section.hpp"
+#include "flow/panel_system.hpp"
 #include "flow/sample_configurations.hpp"
 #include "support/shapes.hpp"
 
@@ -69,7 +70,8 @@ TEST(Streamline, StaysOutsideOfTheBodiesAndHasItsLength) {
         const std::vector<Point> line = streamline(flow, {-1, y}, 4);
         EXPECT_GT(line.size(), 20u);
         for (const Point p : line)
-            for (const PanelSheet& sheet : flow.sheets) ASSERT_FALSE(is_inside(sheet.nodes, p)) << p.x << ' ' << p.y;
+            for (const flow::PanelSheet& sheet : flow::sheets_of(flow))
+                ASSERT_FALSE(is_inside(sheet.nodes, p)) << p.x << ' ' << p.y;
         EXPECT_NEAR(path_length(line), 4, 0.02) << y;
     }
 }

@@ -7,6 +7,8 @@
 
 #include "core/reproducible_math.hpp"
 #include "fuzz/fuzz.hpp"
+#include "layers/layer.hpp"
+
 namespace {
 
 /// Returns a closed outline whose distance from its centre changes from point to point.
@@ -43,7 +45,7 @@ void lamina::fuzz::fuzz(std::span<const std::uint8_t> input) {
     }
     try {
         check_simple(geometry);
-        const Layer layer = make_layer(geometry, options);
+        const layers::Layer layer = layers::make_layer(geometry, options);
         require(check_layer(layer, options).empty(), "the layer has a defect");
         fill_layer(layer, LayerTopology::delaunay);
     } catch (const Error&) {

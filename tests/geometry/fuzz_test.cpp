@@ -10,9 +10,12 @@
 
 #include "geometry/parse_airfoil.hpp"
 #include "support/geometry_fixtures.hpp"
+#include "surface/summary.hpp"
 
 namespace lamina {
 namespace {
+
+using surface::summarize;
 
 /// Damages a text at one to four random places.
 class Mutator {

@@ -7,10 +7,13 @@
 #include <gtest/gtest.h>
 
 #include <lamina/geometry.hpp>
-#include <lamina/surface.hpp>
+
+#include "surface/summary.hpp"
 
 namespace lamina {
 namespace {
+
+using surface::summarize;
 
 Element naca(const std::string& input, std::size_t default_points = 200) {
     const std::vector<std::string> inputs{input};

@@ -11,13 +11,15 @@
 
 #include <lamina/error.hpp>
 #include <lamina/geometry.hpp>
-#include <lamina/surface.hpp>
 
 #include "support/geometry_fixtures.hpp"
 #include "support/shapes.hpp"
+#include "surface/summary.hpp"
 
 namespace lamina {
 namespace {
+
+using surface::summarize;
 
 using fixtures::read;
 

@@ -7,8 +7,8 @@
 
 #include <lamina/error.hpp>
 #include <lamina/io.hpp>
-#include <lamina/partition.hpp>
 
+#include "mesh/partition.hpp"
 #include "support/pvtu_parts.hpp"
 #include "support/sample_meshes.hpp"
 #include "support/temporary_folder.hpp"
@@ -72,7 +72,7 @@ TEST(OpenFoam, WritesTheDecomposition) {
     text >> count >> parenthesis;
     std::vector<std::uint32_t> parts(count);
     for (std::uint32_t& part : parts) text >> part;
-    EXPECT_EQ(parts, partition_cells(mesh, 4));
+    EXPECT_EQ(parts, mesh::partition_cells(mesh, 4));
     write_mesh(mesh, folder / "other", {.format = "openfoam"});
     EXPECT_FALSE(std::filesystem::exists(folder / "other/constant/cellDecomposition"));
 }

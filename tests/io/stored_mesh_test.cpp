@@ -10,7 +10,6 @@
 #include <lamina/files.hpp>
 #include <lamina/io.hpp>
 #include <lamina/mesh.hpp>
-#include <lamina/stored_mesh.hpp>
 
 #include "support/sample_meshes.hpp"
 #include "support/temporary_folder.hpp"

@@ -6,14 +6,13 @@
 #include <cstddef>
 #include <span>
 
-#include <lamina/layers.hpp>
-
 #include "core/angles.hpp"
+#include "layers/layer.hpp"
 
 namespace lamina::test {
 
 /// Returns the largest angle of a cell with these corners, in degrees.
-inline double largest_angle_deg(const Layer& layer, std::span<const VertexId> cell) {
+inline double largest_angle_deg(const layers::Layer& layer, std::span<const VertexId> cell) {
     double largest = 0;
     for (std::size_t k = 0; k < cell.size(); ++k) {
         const auto at = [&](std::size_t i) { return layer.points[cell[i % cell.size()].index()]; };

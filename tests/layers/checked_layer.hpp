@@ -7,6 +7,7 @@
 
 #include <lamina/layers.hpp>
 
+#include "layers/layer.hpp"
 #include "support/layers.hpp"
 #include "support/shapes.hpp"
 

@@ -12,6 +12,7 @@
 #include "core/angles.hpp"
 #include "layers/checked_layer.hpp"
 #include "layers/heights/heights.hpp"
+#include "layers/layer.hpp"
 #include "layers/layered_rays.hpp"
 #include "layers/stages.hpp"
 #include "support/layers.hpp"

@@ -5,6 +5,7 @@
 #include <lamina/layers.hpp>
 
 #include "layers/checked_layer.hpp"
+#include "layers/layer.hpp"
 #include "support/layers.hpp"
 #include "support/shapes.hpp"
 

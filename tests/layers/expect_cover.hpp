@@ -12,13 +12,15 @@
 #include <lamina/layers.hpp>
 #include <lamina/predicates.hpp>
 
+#include "layers/layer.hpp"
+
 namespace lamina::test {
 
 inline constexpr LayerTopology topologies[] = {LayerTopology::delaunay, LayerTopology::layered, LayerTopology::quads};
 
 /// Calls f(corners, layer) for each cell: triangles, then quads.
 template <class F>
-void for_each_cell(const LayerCells& cells, F&& f) {
+void for_each_cell(const layers::LayerCells& cells, F&& f) {
     ASSERT_EQ(cells.triangles.size(), cells.triangle_layer.size());
     ASSERT_EQ(cells.quads.size(), cells.quad_layer.size());
     for (std::size_t t = 0; t < cells.triangles.size(); ++t)
@@ -28,7 +30,7 @@ void for_each_cell(const LayerCells& cells, F&& f) {
 }
 
 /// Returns whether every corner of a cell turns to the left. Exact.
-inline bool strictly_convex(const Layer& layer, const std::vector<VertexId>& cell) {
+inline bool strictly_convex(const layers::Layer& layer, const std::vector<VertexId>& cell) {
     const std::size_t n = cell.size();
     for (std::size_t i = 0; i < n; ++i)
         if (!(orient2d(layer.points[cell[i].index()], layer.points[cell[(i + 1) % n].index()],
@@ -37,7 +39,7 @@ inline bool strictly_convex(const Layer& layer, const std::vector<VertexId>& cel
     return true;
 }
 
-inline double doubled_area(const Layer& layer, const std::vector<VertexId>& cell) {
+inline double doubled_area(const layers::Layer& layer, const std::vector<VertexId>& cell) {
     double area = 0;
     const Point origin = layer.points[cell[0].index()];
     for (std::size_t i = 1; i + 1 < cell.size(); ++i)
@@ -48,7 +50,7 @@ inline double doubled_area(const Layer& layer, const std::vector<VertexId>& cell
 /// Expects cells that cover the layer once: they are convex, positive and numbered from 1 on; each directed edge is used once, and those
 /// without a twin are the edges that bound the layer; all points are used, except wall vertices beside which there is
 /// no layer; area and Euler characteristic are right.
-inline void expect_cover(const Layer& layer, const LayerEdges& edges, const LayerCells& cells) {
+inline void expect_cover(const layers::Layer& layer, const layers::LayerEdges& edges, const layers::LayerCells& cells) {
     std::set<Segment> directed;
     std::set<VertexId> used;
     std::size_t count = 0;
@@ -81,7 +83,7 @@ inline void expect_cover(const Layer& layer, const LayerEdges& edges, const Laye
     EXPECT_NEAR(area, enclosed, 1e-13 * magnitude);
     // V - E + F is that of the region, whatever the topology.
     const std::size_t undirected = (directed.size() + boundary.size()) / 2;
-    const LayerCells delaunay = fill_layer(layer, LayerTopology::delaunay);
+    const layers::LayerCells delaunay = fill_layer(layer, LayerTopology::delaunay);
     const std::size_t delaunay_edges = (3 * delaunay.triangles.size() + boundary.size()) / 2;
     EXPECT_EQ(count + delaunay_edges, delaunay.triangles.size() + undirected);
 }

@@ -11,6 +11,7 @@
 #include <lamina/threads.hpp>
 
 #include "layers/growth_laws.hpp"
+#include "layers/layer.hpp"
 #include "layers/stages.hpp"
 #include "support/layers.hpp"
 #include "support/shapes.hpp"

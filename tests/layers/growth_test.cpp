@@ -12,6 +12,7 @@
 #include "layers/compare_points.hpp"
 #include "layers/growth_laws.hpp"
 #include "layers/heights/heights.hpp"
+#include "layers/layer.hpp"
 #include "layers/stages.hpp"
 #include "support/layers.hpp"
 #include "support/shapes.hpp"

@@ -8,6 +8,7 @@
 
 #include "core/parallel.hpp"
 #include "layers/cells/fill.hpp"
+#include "layers/layer.hpp"
 #include "support/layers.hpp"
 #include "support/point_sets.hpp"
 #include "support/shapes.hpp"
@@ -87,19 +88,21 @@ TEST(LayerDecomposition, Shapes) {
     LayerOptions options = layers(20);
     options.first_height = 1e-4;
     using namespace shapes;
-    expect_same_at_every_depth("box", test::make_layer(geometry({refined(box(), 40)}), options), Balance::not_demanded);
-    expect_same_at_every_depth("circle", test::make_layer(geometry({circle(1, 200)}), options), Balance::not_demanded);
-    expect_same_at_every_depth("l", test::make_layer(geometry({refined(l_shape(), 40)}), options),
+    expect_same_at_every_depth("box", test::make_layer(shapes::geometry({refined(box(), 40)}), options),
                                Balance::not_demanded);
-    expect_same_at_every_depth("c", test::make_layer(geometry({refined(c_shape(0.1), 40)}), options),
+    expect_same_at_every_depth("circle", test::make_layer(shapes::geometry({circle(1, 200)}), options),
                                Balance::not_demanded);
-    expect_same_at_every_depth("notch", test::make_layer(geometry({refined(v_notch(0.4), 40)}), options),
+    expect_same_at_every_depth("l", test::make_layer(shapes::geometry({refined(l_shape(), 40)}), options),
                                Balance::not_demanded);
-    expect_same_at_every_depth("comb", test::make_layer(geometry({refined(comb(5, 0.1), 40)}), options),
+    expect_same_at_every_depth("c", test::make_layer(shapes::geometry({refined(c_shape(0.1), 40)}), options),
                                Balance::not_demanded);
-    expect_same_at_every_depth("joukowski", test::make_layer(geometry({joukowski(0.1, 0.05, 400)}), options),
+    expect_same_at_every_depth("notch", test::make_layer(shapes::geometry({refined(v_notch(0.4), 40)}), options),
                                Balance::not_demanded);
-    expect_same_at_every_depth("plate", test::make_layer(geometry({refined(plate(0.02, 20), 4)}), options),
+    expect_same_at_every_depth("comb", test::make_layer(shapes::geometry({refined(comb(5, 0.1), 40)}), options),
+                               Balance::not_demanded);
+    expect_same_at_every_depth("joukowski", test::make_layer(shapes::geometry({joukowski(0.1, 0.05, 400)}), options),
+                               Balance::not_demanded);
+    expect_same_at_every_depth("plate", test::make_layer(shapes::geometry({refined(plate(0.02, 20), 4)}), options),
                                Balance::not_demanded);
 }
 
@@ -108,7 +111,7 @@ TEST(LayerDecomposition, LayersTruncatedToNothing) {
     LayerOptions options = layers(20);
     options.first_height = 1e-2;
     using namespace shapes;
-    expect_same_at_every_depth("comb", test::make_layer(geometry({refined(comb(24, 1e-5), 100)}), options),
+    expect_same_at_every_depth("comb", test::make_layer(shapes::geometry({refined(comb(24, 1e-5), 100)}), options),
                                Balance::not_demanded);
 }
 

@@ -15,6 +15,7 @@
 #include "core/angles.hpp"
 #include "layers/checked_layer.hpp"
 #include "layers/compare_points.hpp"
+#include "layers/layer.hpp"
 #include "layers/stages.hpp"
 #include "support/layers.hpp"
 #include "support/shapes.hpp"

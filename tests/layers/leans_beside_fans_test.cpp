@@ -14,6 +14,7 @@
 #include "core/angles.hpp"
 #include "layers/directions/corners.hpp"
 #include "layers/directions/rays.hpp"
+#include "layers/growth.hpp"
 #include "layers/heights/heights.hpp"
 #include "layers/stages.hpp"
 #include "support/layers.hpp"

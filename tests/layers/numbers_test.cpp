@@ -9,8 +9,6 @@
 #include <random>
 #include <vector>
 
-#include <lamina/layers.hpp>
-
 #include "core/angles.hpp"
 #include "layers/stages.hpp"
 #include "support/layers.hpp"

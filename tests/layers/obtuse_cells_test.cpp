@@ -12,6 +12,7 @@
 
 #include "cell_angles.hpp"
 #include "core/angles.hpp"
+#include "layers/layer.hpp"
 #include "layers/stages.hpp"
 #include "support/layers.hpp"
 #include "support/shapes.hpp"

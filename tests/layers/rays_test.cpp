@@ -14,6 +14,7 @@
 #include "layers/checked_layer.hpp"
 #include "layers/directions/corners.hpp"
 #include "layers/directions/rays.hpp"
+#include "layers/layer.hpp"
 #include "layers/stages.hpp"
 #include "support/layers.hpp"
 #include "support/shapes.hpp"
@@ -195,10 +196,10 @@ TEST(Rays, AskForFinerResampledWallsBelowBordersThatWouldBeDivided) {
                     .empty());  // no element is resampled
 
     for (Element& element : geometry.elements) element.resampled = true;
-    const std::vector<WallSpacing> spacings =
+    const std::vector<geometry::WallSpacing> spacings =
         wall_spacings(grow_rays(geometry, options, test::growth_of(options)), border);
     ASSERT_FALSE(spacings.empty());
-    for (const WallSpacing& spacing : spacings) {
+    for (const geometry::WallSpacing& spacing : spacings) {
         EXPECT_EQ(spacing.element, 0u);
         EXPECT_LT(spacing.spacing, distance(spacing.a, spacing.b));
         EXPECT_GT(spacing.spacing, 0.001);

@@ -16,6 +16,7 @@
 #include "expect_cover.hpp"
 #include "layers/border/clefts.hpp"
 #include "layers/directions/corners.hpp"
+#include "layers/layer.hpp"
 #include "layers/layered_rays.hpp"
 #include "layers/stages.hpp"
 #include "support/layers.hpp"

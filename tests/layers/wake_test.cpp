@@ -14,6 +14,7 @@
 #include <lamina/threads.hpp>
 
 #include "layers/expect_cover.hpp"
+#include "layers/layer.hpp"
 #include "layers/stages.hpp"
 #include "support/layers.hpp"
 #include "support/shapes.hpp"

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include <lamina/error.hpp>
-#include <lamina/partition.hpp>
 #include <lamina/threads.hpp>
 
 #include "mesh/adjacency.hpp"
+#include "mesh/partition.hpp"
 #include "support/sample_meshes.hpp"
 
 namespace lamina::test {
@@ -32,7 +32,7 @@ TEST(Partition, IsEvenAndCompact) {
             const std::size_t cells = mesh.triangles.size() + mesh.quads.size();
             for (const std::size_t parts : {1u, 2u, 3u, 7u, 8u, 100u}) {
                 SCOPED_TRACE(parts);
-                const std::vector<std::uint32_t> part_of_cell = partition_cells(mesh, parts);
+                const std::vector<std::uint32_t> part_of_cell = mesh::partition_cells(mesh, parts);
                 ASSERT_EQ(part_of_cell.size(), cells);
                 std::vector<std::size_t> sizes(parts, 0);
                 for (const std::uint32_t part : part_of_cell) sizes.at(part) += 1;
@@ -44,7 +44,7 @@ TEST(Partition, IsEvenAndCompact) {
                 // all edges between them.
                 const double expected = 4 * std::sqrt(double(cells) * double(parts));
                 EXPECT_LE(double(edges_between_parts(mesh, part_of_cell)), parts == 1 ? 0.0 : expected);
-                with_threads(3, [&] { EXPECT_EQ(partition_cells(mesh, parts), part_of_cell); });
+                with_threads(3, [&] { EXPECT_EQ(mesh::partition_cells(mesh, parts), part_of_cell); });
             }
         }
     }
@@ -52,11 +52,11 @@ TEST(Partition, IsEvenAndCompact) {
 
 TEST(Partition, OfFewCellsLeavesPartsEmpty) {
     const Mesh mesh = tiny();
-    const std::vector<std::uint32_t> part_of_cell = partition_cells(mesh, 5);
+    const std::vector<std::uint32_t> part_of_cell = mesh::partition_cells(mesh, 5);
     ASSERT_EQ(part_of_cell.size(), mesh.triangles.size() + mesh.quads.size());
     EXPECT_NE(part_of_cell[0], part_of_cell[1]);
-    EXPECT_TRUE(partition_cells(Mesh{}, 3).empty());
-    EXPECT_THROW(partition_cells(mesh, 0), OptionError);
+    EXPECT_TRUE(mesh::partition_cells(Mesh{}, 3).empty());
+    EXPECT_THROW(mesh::partition_cells(mesh, 0), OptionError);
 }
 
 }  // namespace

@@ -8,13 +8,23 @@
 #include <utility>
 #include <vector>
 
-#include <lamina/decoupling.hpp>
 #include <lamina/layers.hpp>
 #include <lamina/pipeline.hpp>
+#include "decoupling/far_field.hpp"
+#include "decoupling/subdomain.hpp"
+#include "layers/layer.hpp"
+#include "pipeline/assemble.hpp"
 #include "pipeline/cases.hpp"
+#include "pipeline/derived_options.hpp"
+#include "sizing/requests.hpp"
+#include "surface/spacing_limits.hpp"
 
 namespace lamina::test {
 namespace {
+
+using namespace decoupling;
+using namespace layers;
+using namespace pipeline;
 
 /// What the stages before assemble() make of a section whose points are kept.
 struct Stages {
@@ -28,11 +38,11 @@ struct Stages {
 Stages run_stages(const std::string& input, const CaseOptions& options) {
     Stages stages;
     const LayerGrowth growth = layer_growth(options.layer, {});
-    stages.geometry = prepare_surfaces(read_geometry(std::vector<std::string>{input}), options.surface,
-                                       spacing_limits(options, growth));
+    stages.geometry = surface::prepare_within(read_geometry(std::vector<std::string>{input}), options.surface,
+                                              spacing_limits(options, growth), {});
     const FarField far_field = place_far_field(bounding_box(stages.geometry), 1, options.far_field);
     stages.layer = make_layer(stages.geometry, options.layer, growth, border_options(options, 1, {}));
-    const SizeField size = make_size_field(border_loops(stages.layer), {}, options.sizing, 1, far_field.box());
+    const SizeField size = sizing::make_size_field(border_loops(stages.layer), {}, options.sizing, 1, far_field.box());
     stages.decoupling = decouple(stages.layer.points, stages.layer.borders, size, far_field, options.decoupling);
     stages.cells = fill_layer(stages.layer, options.layer.topology);
     stages.refinements = refine(stages.decoupling.subdomains);

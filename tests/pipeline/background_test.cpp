@@ -9,6 +9,7 @@
 #include <lamina/error.hpp>
 
 #include "pipeline/cases.hpp"
+#include "sizing/requests.hpp"
 
 namespace lamina::test {
 namespace {
@@ -49,6 +50,7 @@ TEST(Background, PointsAreWithinATenthOfTheInterpolation) {
         const auto sources = sizing::background_sources(mesh, gradation, domain);
         EXPECT_GT(sources.size(), mesh.points.size());
         EXPECT_LT(sources.size(), 10000u);
+        const SizeField field = size_field_of_mesh(mesh, {.gradation = gradation}, domain);
         for (const Triangle& t : mesh.triangles)
             for (const auto& w : weights) {
                 const RequestedSize request = interpolated(mesh, t, w);
@@ -56,6 +58,7 @@ TEST(Background, PointsAreWithinATenthOfTheInterpolation) {
                 for (const SizeSource& s : sources)
                     size = std::min(size, s.size + gradation * distance(s.a, request.at));
                 EXPECT_LE(size, 1.1 * request.size);
+                EXPECT_LE(field(request.at), (1 + SizeField::relative_error) * size);
             }
     }
 }
@@ -134,7 +137,7 @@ TEST(Background, DividesTheLayersBorder) {
         const Point a = result.mesh.points[edge.a.index()], b = result.mesh.points[edge.b.index()];
         if (!box.contains(midpoint(a, b))) continue;
         ++inside;
-        EXPECT_LE(distance(a, b), 1.1 * 1.02 * frozen_share * h);
+        EXPECT_LE(distance(a, b), 1.1 * 1.02 * sizing::frozen_share * h);
     }
     EXPECT_GT(inside, 150u);
 }

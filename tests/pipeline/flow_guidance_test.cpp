@@ -8,6 +8,7 @@
 
 #include <lamina/error.hpp>
 
+#include "flow/potential.hpp"
 #include "layers/stages.hpp"
 #include "pipeline/cases.hpp"
 #include "pipeline/flow_guidance.hpp"
@@ -182,7 +183,7 @@ void expect_to_follow_flow(const std::vector<pipeline::WakeSource>& chain, const
 TEST(FlowGuidance, WakesFollowStreamlinesFromTrailingEdges) {
     const Geometry geometry = two_elements();
     const Flow flow = solve_flow(geometry, {.alpha_deg = 6, .reynolds = 3e6});
-    const Flow weaker = with_share_of_lift(flow, 0.8);
+    const Flow weaker = flow::with_share_of_lift(flow, 0.8);
     const std::vector<pipeline::ElementWake> wakes = pipeline::wakes_of_flow(flow);
     ASSERT_EQ(wakes.size(), 2u);
     for (std::size_t e = 0; e < 2; ++e) {
@@ -208,7 +209,7 @@ TEST(FlowGuidance, WakesHoldStreamlinesOfSeveralLifts) {
     const std::vector<SizeSource> wake = sources_of(pipeline::wakes_of_flow(flow).front().outer);
     const ElementFlow& element = flow.elements.front();
     for (const double share : {0.75, 0.85}) {
-        const Flow weaker = with_share_of_lift(flow, share);
+        const Flow weaker = flow::with_share_of_lift(flow, share);
         for (const Point p : streamline(weaker, midpoint(element.upper.back().at, element.lower.back().at), 1.9)) {
             const bool is_inside = std::any_of(wake.begin(), wake.end(),
                                                [&](const SizeSource& part) { return distance_to(part, p) == 0; });

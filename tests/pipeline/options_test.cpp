@@ -8,6 +8,8 @@
 #include <lamina/error.hpp>
 #include <lamina/option.hpp>
 #include <lamina/pipeline.hpp>
+
+#include "layers/layer.hpp"
 #include "support/shapes.hpp"
 
 namespace lamina {
@@ -134,7 +136,7 @@ TEST(StageOptions, EveryStageRefusesValuesOutOfRangeByItself) {
                   "min_angle");
     // The kernel alone may refine without a bound.
     EXPECT_FALSE(refine(corners, sides, SizeField(0.2), {.min_angle_deg = 0}).triangles.empty());
-    EXPECT_EQ(refused_option([&] { make_layer(body, {.growth = nan}); }), "growth");
+    EXPECT_EQ(refused_option([&] { layers::make_layer(body, {.growth = nan}); }), "growth");
     EXPECT_EQ(refused_option([&] { prepare_surfaces(body, {.max_ratio = 1}); }), "max_ratio");
     EXPECT_EQ(refused_option([&] { check_mesh(Mesh{}, {.min_angle_deg = nan}); }), "min_angle");
     EXPECT_EQ(refused_option([&] { generate_mesh(body, {.threads = 5000}); }), "threads");

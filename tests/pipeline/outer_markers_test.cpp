@@ -10,16 +10,20 @@
 #include <lamina/error.hpp>
 #include <lamina/pipeline.hpp>
 
+#include "pipeline/assemble.hpp"
 #include "support/sample_meshes.hpp"
 
 namespace lamina {
 namespace {
 
+using pipeline::mark_slip_walls;
+using pipeline::split_far_field;
+
 TEST(InletOutlet, EachEdgeIsWhereTheFlowEntersOrNot) {
     for (const double alpha : {0.0, 30.0, -75.0, 90.0}) {
         Mesh mesh = test::annulus({.around = 60});
         const std::size_t edges = mesh.markers[1].edges.size();
-        split_far_field(mesh, alpha);
+        split_far_field(mesh.points, mesh.markers, alpha);
         EXPECT_TRUE(check_mesh(mesh).valid());
         ASSERT_EQ(mesh.markers.size(), 3u);
         EXPECT_EQ(mesh.markers[0].name, "wall");
@@ -47,7 +51,7 @@ TEST(InletOutlet, EachEdgeIsWhereTheFlowEntersOrNot) {
 TEST(InletOutlet, NamesOfElementsAreNotTakenTwice) {
     Mesh mesh = test::annulus();
     mesh.markers[0].name = "outlet";
-    EXPECT_THROW(split_far_field(mesh, 0), OptionError);
+    EXPECT_THROW(split_far_field(mesh.points, mesh.markers, 0), OptionError);
 }
 
 TEST(InletOutlet, IsAnOptionOfTheMesh) {
@@ -172,7 +176,7 @@ TEST(SlipWalls, AreRefusedWhereTheyCannotBe) {
     EXPECT_THROW(mesh_of_section(options), OptionError) << "a circle has no floor";
     Mesh mesh = test::annulus();
     mesh.markers[0].name = "tunnel";
-    EXPECT_THROW(mark_slip_walls(mesh, {}, false), OptionError);
+    EXPECT_THROW(mark_slip_walls(mesh.points, mesh.markers, {}, false), OptionError);
 }
 
 }  // namespace

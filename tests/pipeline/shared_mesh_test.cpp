@@ -11,7 +11,6 @@
 #include <lamina/ids.hpp>
 #include <lamina/io.hpp>
 #include <lamina/point.hpp>
-#include <lamina/shared_mesh.hpp>
 #include <lamina/stream.hpp>
 
 #include "pipeline/sharing/shared_seams.hpp"

@@ -7,6 +7,7 @@
 #include <lamina/error.hpp>
 
 #include "pipeline/cases.hpp"
+#include "sizing/requests.hpp"
 #include "support/refinement_checks.hpp"
 
 namespace lamina::test {
@@ -33,7 +34,7 @@ void expect_sizes(const MeshResult& result, const std::vector<SizeSource>& sourc
     }
     for (const Segment& edge : result.mesh.constraints) {
         const Point a = points[edge.a.index()], b = points[edge.b.index()];
-        ASSERT_LE(distance(a, b), 1.02 * frozen_share * requested_size(sources, gradation, midpoint(a, b)));
+        ASSERT_LE(distance(a, b), 1.02 * sizing::frozen_share * requested_size(sources, gradation, midpoint(a, b)));
     }
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "mesh/walls.hpp"
 #include "pipeline/cases.hpp"
 
 namespace lamina::test {
@@ -101,7 +102,7 @@ TEST(Transition, SectionsOfTheirFormulaHaveEvenWallsAndSmoothBorders) {
         SCOPED_TRACE(name);
         const MeshResult result = generate_mesh({name}, automatic(1.2));
         const WallSummary& walls = result.check.walls;
-        EXPECT_LE(walls.max_ratio, even_wall_ratio);
+        EXPECT_LE(walls.max_ratio, mesh::even_wall_ratio);
         EXPECT_EQ(walls.uneven_vertices, 0u);
         EXPECT_EQ(walls.first_cells, walls.edges);
         EXPECT_EQ(walls.share_of_kept_heights, 1);

@@ -8,6 +8,7 @@
 
 #include <lamina/layers.hpp>
 
+#include "layers/layer.hpp"
 #include "layers/stages.hpp"
 
 namespace lamina {

@@ -18,7 +18,7 @@
 #include <utility>
 #include <vector>
 
-#include <lamina/ranks.hpp>
+#include "core/connected_ranks.hpp"
 
 namespace lamina::test {
 
@@ -43,7 +43,7 @@ struct RankHub {
 };
 
 /// A file that the threads write to one after the other.
-class ThreadFile : public SharedFile {
+class ThreadFile : public core::SharedFile {
 public:
     ThreadFile(const std::filesystem::path& file, RankHub& hub)
         : out_(file, std::ios::binary | std::ios::in | std::ios::out), hub_(hub) {}
@@ -65,7 +65,7 @@ private:
     RankHub& hub_;
 };
 
-class ThreadRanks : public Ranks {
+class ThreadRanks : public core::ConnectedRanks {
 public:
     ThreadRanks(unsigned rank, RankHub& hub) : rank_(rank), hub_(hub) {}
     unsigned rank() const override { return rank_; }
@@ -160,7 +160,8 @@ protected:
         hub_.first_taker = size();
         return taken;
     }
-    std::unique_ptr<SharedFile> do_open_file(const std::filesystem::path& file, const std::filesystem::path&) override {
+    std::unique_ptr<core::SharedFile> do_open_file(const std::filesystem::path& file,
+                                                   const std::filesystem::path&) override {
         if (rank_ == 0) std::ofstream(file, std::ios::binary | std::ios::app);
         wait();
         return std::make_unique<ThreadFile>(file, hub_);

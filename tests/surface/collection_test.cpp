@@ -12,6 +12,8 @@
 #include <lamina/geometry.hpp>
 #include <lamina/surface.hpp>
 
+#include "surface/summary.hpp"
+
 namespace lamina {
 namespace {
 
@@ -105,7 +107,7 @@ TEST_F(Collection, EveryOutlineCanBeResampled) {
         for (std::size_t i = 0; i < result.elements.size(); ++i) {
             if (result.elements[i].points == given.elements[i].points) continue;
             ++resampled;
-            const ElementSummary s = summarize(result.elements[i]);
+            const surface::ElementSummary s = surface::summarize(result.elements[i]);
             if (s.min_spacing < 1.5 * options.min_spacing * s.chord) continue;  // as at the base of s1221-4deg-flap
             EXPECT_LE(s.max_spacing_ratio, options.max_ratio) << name;
         }

@@ -14,6 +14,8 @@
 #include "support/geometry_fixtures.hpp"
 #include "support/outline_measures.hpp"
 #include "support/shapes.hpp"
+#include "surface/spacing_limits.hpp"
+#include "surface/summary.hpp"
 
 namespace lamina {
 namespace {
@@ -265,9 +267,9 @@ TEST(AutomaticSurface, HoldsTheSpacingsThatTheLayerAsksFor) {
     for (const Outline& outline : {fine, dense}) {
         const Geometry given = shapes::geometry({outline});
         ASSERT_EQ(prepare_surfaces(given, {}).elements[0].points, outline);
-        SpacingLimits limits;
+        surface::SpacingLimits limits;
         limits.walls = {{0, {0.5, 0}, {0.5, 0}, 4e-4}};
-        const Outline points = prepare_surfaces(given, {}, limits).elements[0].points;
+        const Outline points = surface::prepare_within(given, {}, limits, {}).elements[0].points;
         double shortest = HUGE_VAL;
         for (std::size_t i = 0; i < points.size(); ++i)
             shortest = std::min(shortest, distance(points[i], points[(i + 1) % points.size()]));
@@ -407,7 +409,7 @@ TEST(RequestedSpacings, AreFollowedAtBothEndsOfTheChord) {
     options.max_spacing = 0.01;
     for (const Outline& outline : {fine, blunt, shapes::moved(fine, 0, 10, {3, 4})}) {
         const Element e = prepared(outline, options);
-        const double chord = summarize(e).chord;
+        const double chord = surface::summarize(e).chord;
         const Point nose = outline[outline.size() / 2], tail = outline[0];
         EXPECT_TRUE(e.resampled);
         EXPECT_LE(spacing_at(e.points, nose), 1.2 * 2e-4 * chord);

@@ -9,9 +9,13 @@
 
 #include "support/geometry_fixtures.hpp"
 #include "support/shapes.hpp"
+#include "surface/summary.hpp"
 
 namespace lamina {
 namespace {
+
+using surface::ElementSummary;
+using surface::summarize;
 
 ElementSummary summary_of(const shapes::Outline& outline) { return summarize(shapes::geometry({outline}).elements[0]); }
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include <lamina/former_options.hpp>
-#include <lamina/option_builders.hpp>
 
+#include "core/option_builders.hpp"
 #include "values.hpp"
 
 namespace lamina::web {

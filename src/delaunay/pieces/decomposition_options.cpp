@@ -1,6 +1,7 @@
 // The ranges of the options of triangulation in pieces.
 #include <lamina/delaunay.hpp>
-#include <lamina/option_builders.hpp>
+
+#include "core/option_builders.hpp"
 
 namespace lamina {
 

@@ -1,6 +1,7 @@
 // Stage "close the border": the fronts are divided, and all points of the layer placed. Source: J. K. Pardue, thesis
 // (2015), chapter 3.
 #include "layers/border/close_border.hpp"
+#include "layers/layer.hpp"
 
 #include <algorithm>
 #include <numbers>
@@ -60,10 +61,7 @@ std::vector<std::vector<Point>> fronts(const Rays& rays) {
     return result;
 }
 
-}  // namespace lamina::layers
-
 // The edges of walls and outer borders, sorted by what lies beside them.
-namespace lamina {
 
 LayerEdges layer_edges(const Layer& layer) {
     LayerEdges result;
@@ -102,10 +100,6 @@ std::vector<std::vector<Point>> border_loops(const Layer& layer) {
     }
     return loops;
 }
-
-}  // namespace lamina
-
-namespace lamina::layers {
 
 namespace {
 
@@ -170,7 +164,7 @@ bool is_above_wall(const Rays& rays, const std::vector<FrontCorner>& corners, st
 
 /// Where rays converge, edges of the front are shorter than those of the wall below. If they requested their own
 /// lengths, the wall beside would become finer for them, then the wall below, and then these edges themselves.
-std::vector<WallSpacing> wall_spacings(const Rays& rays, const BorderOptions& options) {
+std::vector<geometry::WallSpacing> wall_spacings(const Rays& rays, const BorderOptions& options) {
     constexpr double margin = 0.97;  // for walls whose whole numbers of edges differ from those asked for
     validate(options);
     const LayeredRays layered = layered_rays(rays);
@@ -180,7 +174,7 @@ std::vector<WallSpacing> wall_spacings(const Rays& rays, const BorderOptions& op
         for (std::size_t k = 0; k < corners[e].size(); ++k)
             least_requests[e].push_back(corners[e][k].cleft ? 0 : wall_below(rays, corners[e], k).edge);
     const BorderDivision division = divide_fronts(layered, corners, options, least_requests, {});
-    std::vector<WallSpacing> spacings;
+    std::vector<geometry::WallSpacing> spacings;
     for (std::size_t e = 0; e < corners.size(); ++e) {
         if (!rays.resampled[e]) continue;
         for (std::size_t k = 0; k < corners[e].size(); ++k) {
@@ -206,13 +200,9 @@ Layer close_border(const Rays& rays, const BorderOptions& options) {
     return layer;
 }
 
-}  // namespace lamina::layers
-
-namespace lamina {
-
 Layer make_layer(const Geometry& geometry, const LayerOptions& options, const LayerGrowth& growth,
                  const BorderOptions& border) {
-    return layers::close_border(layers::grow_rays(geometry, options, growth), border);
+    return close_border(grow_rays(geometry, options, growth), border);
 }
 
 Layer make_layer(const Geometry& geometry, const LayerOptions& options, const BorderOptions& border) {
@@ -220,4 +210,4 @@ Layer make_layer(const Geometry& geometry, const LayerOptions& options, const Bo
     return make_layer(geometry, options, layer_growth(options, {.chord = bounding_box(geometry).width()}), border);
 }
 
-}  // namespace lamina
+}  // namespace lamina::layers

@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
-#include <lamina/layers.hpp>
 #include <lamina/point.hpp>
 
 #include "layers/border/target_length.hpp"
+#include "layers/layer.hpp"
 #include "layers/stages.hpp"
 
 namespace lamina::layers {

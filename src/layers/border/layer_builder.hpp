@@ -3,10 +3,9 @@
 
 #include <vector>
 
-#include <lamina/layers.hpp>
-
 #include "layers/border/close_border.hpp"
 #include "layers/border/divide_borders.hpp"
+#include "layers/layer.hpp"
 #include "layers/stages.hpp"
 
 namespace lamina::layers {

@@ -5,12 +5,12 @@
 #include <span>
 #include <vector>
 
-#include <lamina/layers.hpp>
 #include <lamina/point.hpp>
 #include <lamina/sizing.hpp>
 
 #include "core/box_tree.hpp"
 #include "core/segments.hpp"
+#include "layers/layer.hpp"
 #include "layers/parameters.hpp"
 
 namespace lamina::layers {

@@ -1,7 +1,7 @@
 // The points of the layer joined as a grid, ray by ray and layer by layer.
 #pragma once
 
-#include <lamina/layers.hpp>
+#include "layers/layer.hpp"
 
 namespace lamina::layers {
 

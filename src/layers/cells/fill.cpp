@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <utility>
 
+#include <lamina/delaunay.hpp>
 #include <lamina/error.hpp>
 
 #include "layers/cells/connect.hpp"
@@ -131,15 +132,9 @@ LayerCells fill(const Layer& layer, LayerTopology topology, const DecompositionO
     return cells;
 }
 
-}  // namespace lamina::layers
-
-namespace lamina {
-
-using namespace layers;
-
 LayerCells fill_layer(const Layer& layer, LayerTopology topology, const DecompositionOptions& options) {
     validate(options);
     return fill(layer, topology, options, nullptr);
 }
 
-}  // namespace lamina
+}  // namespace lamina::layers

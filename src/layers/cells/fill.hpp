@@ -9,6 +9,7 @@
 
 #include "core/busy_times.hpp"
 #include "delaunay/pieces/pieces.hpp"
+#include "layers/layer.hpp"
 
 namespace lamina::layers {
 

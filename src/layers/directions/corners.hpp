@@ -3,8 +3,7 @@
 
 #include <vector>
 
-#include <lamina/layers.hpp>
-
+#include "layers/growth.hpp"
 #include "layers/stages.hpp"
 #include "layers/wake/wake_outline.hpp"
 

@@ -14,6 +14,7 @@
 #include <lamina/layers.hpp>
 
 #include "layers/directions/outline_kind.hpp"
+#include "layers/growth.hpp"
 #include "layers/wake/wake_outline.hpp"
 
 namespace lamina::layers {

@@ -1,5 +1,6 @@
 // Vertex normals, fans and refining rays. Source: J. K. Pardue, thesis (2015), chapter 3 and section 3.1.
 #include "layers/directions/rays.hpp"
+#include "geometry/sharp_corner.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -109,8 +110,9 @@ void add_refining_rays(const RayLine& first, const RayLine& last, double max_ang
 std::vector<RayLine> make_rays(std::span<const RayVertex> outline, OutlineKind kind, const LayerOptions& options,
                                const LayerGrowth& growth, std::span<const double> heights) {
     const bool smooth = kind == OutlineKind::smooth, jagged = kind == OutlineKind::jagged;
-    const double min_fan_turning_deg =
-        smooth && !options.equal_fans ? std::min(sharp_corner_deg, 2 * options.max_ray_angle_deg) : sharp_corner_deg;
+    const double min_fan_turning_deg = smooth && !options.equal_fans
+                                           ? std::min(geometry::sharp_corner_deg, 2 * options.max_ray_angle_deg)
+                                           : geometry::sharp_corner_deg;
     std::vector<WallVertex> vertices = wall_vertices(outline, options, min_fan_turning_deg);
     if (!heights.empty() && uses("leans")) lean_rays(outline, heights, kind, options, growth, vertices);
     const double max_angle = core::radians(options.max_ray_angle_deg);
@@ -132,12 +134,8 @@ std::vector<RayLine> make_rays(std::span<const RayVertex> outline, OutlineKind k
     return rays;
 }
 
-}  // namespace lamina::layers
-
-namespace lamina {
-
 std::uint32_t equal_fan_parts(const LayerOptions& options) {
-    return static_cast<std::uint32_t>(layers::angle_parts(core::pi, core::radians(options.max_ray_angle_deg)));
+    return static_cast<std::uint32_t>(angle_parts(core::pi, core::radians(options.max_ray_angle_deg)));
 }
 
-}  // namespace lamina
+}  // namespace lamina::layers

@@ -7,6 +7,7 @@
 #include <lamina/layers.hpp>
 
 #include "layers/directions/outline_kind.hpp"
+#include "layers/growth.hpp"
 #include "layers/stages.hpp"
 #include "layers/wake/wake_outline.hpp"
 

@@ -4,8 +4,7 @@
 #include <span>
 #include <vector>
 
-#include <lamina/layers.hpp>
-
+#include "layers/growth.hpp"
 #include "layers/stages.hpp"
 #include "layers/wake/wake_outline.hpp"
 

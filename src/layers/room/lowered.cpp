@@ -7,11 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include <lamina/layers.hpp>
-
 #include "core/angles.hpp"
 #include "core/box_tree.hpp"
 #include "core/reproducible_math.hpp"
+#include "layers/layer.hpp"
 #include "layers/layered_rays.hpp"
 #include "layers/stages.hpp"
 

@@ -12,6 +12,7 @@
 // run straight from both corners to a point on the line of the wake, and a core fills the space between them
 // (docs/decisions/0037).
 #include "layers/wake/wake_outline.hpp"
+#include "geometry/sharp_corner.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -150,7 +151,7 @@ private:
 bool is_sharp(std::span<const Point> outline, std::size_t i) {
     const std::size_t n = outline.size();
     const Point before = outline[i] - outline[(i + n - 1) % n], after = outline[(i + 1) % n] - outline[i];
-    return core::angle_between(before, after) > core::radians(sharp_corner_deg);
+    return core::angle_between(before, after) > core::radians(geometry::sharp_corner_deg);
 }
 
 /// Returns the base of an element if the line of a wake begins there, else its sharp corner where the line begins, as a

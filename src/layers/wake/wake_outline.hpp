@@ -6,8 +6,7 @@
 #include <span>
 #include <vector>
 
-#include <lamina/layers.hpp>
-
+#include "layers/layer.hpp"
 #include "layers/stages.hpp"
 
 namespace lamina::layers {

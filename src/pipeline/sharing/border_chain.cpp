@@ -15,7 +15,7 @@ namespace {
 /// The edges of a subdomain's border by the vertices that they begin at. Most vertices have one.
 class EdgesFrom {
 public:
-    explicit EdgesFrom(const Subdomain& subdomain)
+    explicit EdgesFrom(const decoupling::Subdomain& subdomain)
         : subdomain_(subdomain), first_(subdomain.points.size() + 1, 0), edges_(subdomain.segments.size()) {
         for (const Segment& s : subdomain.segments) ++first_[s.a.index() + 1];
         std::partial_sum(first_.begin(), first_.end(), first_.begin());
@@ -35,12 +35,12 @@ public:
     }
 
 private:
-    const Subdomain& subdomain_;
+    const decoupling::Subdomain& subdomain_;
     std::vector<std::size_t> first_, edges_;
 };
 
 /// Returns the number that a vertex of the mesh has in the subdomain, or the number of its vertices.
-VertexId local_id(const Subdomain& subdomain, VertexId v) {
+VertexId local_id(const decoupling::Subdomain& subdomain, VertexId v) {
     const auto at = std::lower_bound(subdomain.global.begin(), subdomain.global.end(), v);
     const bool found = at != subdomain.global.end() && *at == v;
     return VertexId{found ? static_cast<std::size_t>(at - subdomain.global.begin()) : subdomain.global.size()};
@@ -74,7 +74,7 @@ BorderChain border_chain(const decoupling::LineBorder& border, const decoupling:
     return chain;
 }
 
-std::vector<Point> apexes_of(const Subdomain& subdomain, mesh::PieceFindings& findings) {
+std::vector<Point> apexes_of(const decoupling::Subdomain& subdomain, mesh::PieceFindings& findings) {
     mesh::DefectList& defects = findings.cells.defects;
     const EdgesFrom from(subdomain);
     const std::size_t n = subdomain.segments.size();

@@ -4,9 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include <lamina/decoupling.hpp>
-
 #include "decoupling/line_border.hpp"
+#include "decoupling/subdomain.hpp"
 #include "mesh/piece_check.hpp"
 
 namespace lamina::pipeline {
@@ -23,6 +22,6 @@ BorderChain border_chain(const decoupling::LineBorder& border, const decoupling:
 
 /// Returns what lies behind the edges of the subdomain's border_chain(), from the border edges that the check of the piece has found.
 /// Adds a defect where these are other edges: the triangles of the piece do not add up to its border then.
-std::vector<Point> apexes_of(const Subdomain& subdomain, mesh::PieceFindings& findings);
+std::vector<Point> apexes_of(const decoupling::Subdomain& subdomain, mesh::PieceFindings& findings);
 
 }  // namespace lamina::pipeline

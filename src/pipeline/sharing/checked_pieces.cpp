@@ -14,7 +14,7 @@ namespace {
 
 /// Calls f(a, b, c) for the corners of every `stride`-th triangle.
 template <class F>
-void for_triangles(const Subdomain& subdomain, const Refinement& refinement, std::size_t stride, F&& f) {
+void for_triangles(const decoupling::Subdomain& subdomain, const Refinement& refinement, std::size_t stride, F&& f) {
     const auto at = [&](VertexId v) {
         return v.index() < subdomain.points.size() ? subdomain.points[v.index()]
                                                    : refinement.steiner_points[v.index() - subdomain.points.size()];
@@ -26,7 +26,7 @@ void for_triangles(const Subdomain& subdomain, const Refinement& refinement, std
 }
 
 /// Returns the mean length of edges over h at their middles, of `samples` evenly chosen triangles or a few more.
-double mean_edge_over_size(const Subdomain& subdomain, const Refinement& refinement, std::size_t samples) {
+double mean_edge_over_size(const decoupling::Subdomain& subdomain, const Refinement& refinement, std::size_t samples) {
     double sum = 0, edges = 0;
     const auto add = [&](Point a, Point b) { sum += distance(a, b) / subdomain.size(midpoint(a, b)); };
     for_triangles(subdomain, refinement, 1 + refinement.triangles.size() / samples, [&](Point a, Point b, Point c) {
@@ -38,7 +38,7 @@ double mean_edge_over_size(const Subdomain& subdomain, const Refinement& refinem
     return edges > 0 ? sum / edges : 0.0;
 }
 
-mesh::WorstCell most_oversized(const Subdomain& subdomain, const Refinement& refinement) {
+mesh::WorstCell most_oversized(const decoupling::Subdomain& subdomain, const Refinement& refinement) {
     mesh::WorstCell worst;
     for_triangles(subdomain, refinement, 1, [&](Point a, Point b, Point c) {
         const Point middle = (1.0 / 3) * (a + b + c);
@@ -54,8 +54,8 @@ std::size_t samples_of(double triangles, double expected_in_all) {
     return 32 + static_cast<std::size_t>(4096 * std::min(1.0, triangles / std::max(expected_in_all, 1.0)));
 }
 
-PieceFacts facts_of(std::span<const Point> points, const Subdomain& subdomain, const delaunay::LinkedRefinement& linked,
-                    const PieceRules& rules) {
+PieceFacts facts_of(std::span<const Point> points, const decoupling::Subdomain& subdomain,
+                    const delaunay::LinkedRefinement& linked, const PieceRules& rules) {
     const Refinement& refinement = linked.refinement;
     const std::size_t samples = samples_of(static_cast<double>(refinement.triangles.size()), rules.expected_triangles);
     PieceFacts facts;
@@ -71,8 +71,8 @@ PieceFacts facts_of(std::span<const Point> points, const Subdomain& subdomain, c
 
 }  // namespace
 
-CheckedPiece refine_and_check_piece(const Subdomain& region, std::span<const Point> points, const PieceRules& rules,
-                                    core::BusyTimes& times) {
+CheckedPiece refine_and_check_piece(const decoupling::Subdomain& region, std::span<const Point> points,
+                                    const PieceRules& rules, core::BusyTimes& times) {
     delaunay::LinkedRefinement linked;
     {
         const core::BusyTimes::Scope busy(&times, rules.work.refining);
@@ -100,7 +100,7 @@ void add_piece(PieceFacts facts, PiecesSummary& summary, mesh::PiecewiseCheck& c
     check.add_piece(std::move(facts.findings));
 }
 
-PiecesSummary refine_and_check(const Decoupling& decoupling, std::span<const std::size_t> order,
+PiecesSummary refine_and_check(const decoupling::Decoupling& decoupling, std::span<const std::size_t> order,
                                const PieceRules& rules, core::BusyTimes& times, mesh::PiecewiseCheck& check,
                                const PieceKeeper& keeper) {
     PiecesSummary summary;

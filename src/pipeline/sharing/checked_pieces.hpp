@@ -6,10 +6,9 @@
 #include <span>
 #include <vector>
 
-#include <lamina/decoupling.hpp>
-
 #include "core/busy_times.hpp"
 #include "core/exact_sum.hpp"
+#include "decoupling/subdomain.hpp"
 #include "mesh/piecewise_check.hpp"
 
 namespace lamina::pipeline {
@@ -67,8 +66,8 @@ struct PieceRules {
 };
 
 /// Refines a subdomain and checks the piece. `points` holds its border vertices by their ids in the mesh.
-CheckedPiece refine_and_check_piece(const Subdomain& subdomain, std::span<const Point> points, const PieceRules& rules,
-                                    core::BusyTimes& times);
+CheckedPiece refine_and_check_piece(const decoupling::Subdomain& subdomain, std::span<const Point> points,
+                                    const PieceRules& rules, core::BusyTimes& times);
 
 /// Returns whether the number of triangles of a piece was estimated within 15 %.
 bool is_good_estimate(double estimated, std::size_t made);
@@ -79,7 +78,7 @@ void add_piece(PieceFacts facts, PiecesSummary& summary, mesh::PiecewiseCheck& c
 /// Refines all subdomains in parallel in this order. Each piece is checked while it lies in the cache of the thread that
 /// has made it, its findings are added to the check in the order of the subdomains, and the piece is handed to the keeper.
 /// The result depends neither on this order nor on the number of threads.
-PiecesSummary refine_and_check(const Decoupling& decoupling, std::span<const std::size_t> order,
+PiecesSummary refine_and_check(const decoupling::Decoupling& decoupling, std::span<const std::size_t> order,
                                const PieceRules& rules, core::BusyTimes& times, mesh::PiecewiseCheck& check,
                                const PieceKeeper& keeper);
 

@@ -14,8 +14,8 @@ constexpr std::uint64_t parts_of_kind = std::uint64_t{1} << 40;
 
 }  // namespace
 
-HeldParts::HeldParts(std::unique_ptr<SharedDecoupling> shared, LayerCells cells, HeldNumbers held,
-                     const MeshCounts& counts, const Ranks& ranks)
+HeldParts::HeldParts(std::unique_ptr<SharedDecoupling> shared, layers::LayerCells cells, HeldNumbers held,
+                     const MeshCounts& counts, const core::ConnectedRanks& ranks)
     : shared_(std::move(shared)), cells_(std::move(cells)), held_(std::move(held)) {
     core::parallel_for(held_.pieces.size(), 1, [&](std::size_t i, std::size_t) {
         PieceStore& store = *held_.store;
@@ -59,9 +59,9 @@ void HeldParts::visit(std::size_t i, const std::function<void(const MeshPart&)>&
     take_piece(refinement);
 }
 
-PartCounts HeldParts::counts(std::size_t i) const {
+mesh::PartCounts HeldParts::counts(std::size_t i) const {
     const auto of = [](const MeshPart& part) {
-        return PartCounts{part.points.size(), part.triangles.size(), part.quads.size()};
+        return mesh::PartCounts{part.points.size(), part.triangles.size(), part.quads.size()};
     };
     if (i < own_points_.size()) return of(points_[own_points_[i]]);
     i -= own_points_.size();

@@ -7,11 +7,11 @@
 #include <memory>
 #include <vector>
 
-#include <lamina/decoupling.hpp>
-#include <lamina/layers.hpp>
 #include <lamina/mesh_sink.hpp>
-#include <lamina/ranks.hpp>
 
+#include "core/connected_ranks.hpp"
+#include "layers/layer.hpp"
+#include "mesh/shared_parts.hpp"
 #include "pipeline/sharing/piece_store.hpp"
 #include "pipeline/sharing/shared_pieces.hpp"
 
@@ -26,19 +26,19 @@ struct HeldNumbers {
     std::size_t layer_pieces = 0;       ///< pieces of the layer, which are numbered before those of the subdomains
 };
 
-class HeldParts : public MeshParts {
+class HeldParts : public mesh::MeshParts {
 public:
     /// Each process has a share of the vertices of the decoupling. Rank 0 holds the layer, too.
-    HeldParts(std::unique_ptr<SharedDecoupling> shared, LayerCells cells, HeldNumbers held, const MeshCounts& counts,
-              const Ranks& ranks);
+    HeldParts(std::unique_ptr<SharedDecoupling> shared, layers::LayerCells cells, HeldNumbers held,
+              const MeshCounts& counts, const core::ConnectedRanks& ranks);
 
     std::vector<std::uint64_t> places() const override;
     void visit(std::size_t i, const std::function<void(const MeshPart&)>& take) const override;
-    PartCounts counts(std::size_t i) const override;
+    mesh::PartCounts counts(std::size_t i) const override;
 
 private:
     std::unique_ptr<SharedDecoupling> shared_;  ///< its lines are divided when their vertices are visited
-    LayerCells cells_;
+    layers::LayerCells cells_;
     HeldNumbers held_;
     std::vector<MeshPart> points_;          ///< all parts of the vertices of the decoupling
     std::vector<std::size_t> own_points_;   ///< the numbers of those of this process

@@ -24,7 +24,7 @@ PieceRules piece_rules(const RefineOptions& refine, double expected_triangles) {
 
 /// Gives all processes this array of rank 0.
 template <class Value>
-void tell_all(Ranks& ranks, std::vector<Value>& values) {
+void tell_all(core::ConnectedRanks& ranks, std::vector<Value>& values) {
     core::Packer packer;
     packer.put_all<Value>(values);
     const std::string packed = ranks.broadcast(packer.take());
@@ -34,9 +34,9 @@ void tell_all(Ranks& ranks, std::vector<Value>& values) {
 
 }  // namespace
 
-LayerCells PiecesWork::fill_layer() const { return layers::fill(layer, topology, decomposition, &times); }
+layers::LayerCells PiecesWork::fill_layer() const { return layers::fill(layer, topology, decomposition, &times); }
 
-Mesh PiecesWork::check_layer(const LayerCells& cells) const {
+Mesh PiecesWork::check_layer(const layers::LayerCells& cells) const {
     Mesh mesh = layer_mesh(layer, cells);
     if (!mesh.triangles.empty() || !mesh.quads.empty()) check.add_layer(mesh, layer.edges.interfaces);
     return mesh;
@@ -46,7 +46,7 @@ DecoupledBorders LocalDriver::decouple(const decoupling::OuterRegion& region, co
                                        double expected_triangles) {
     rules_ = piece_rules(refine, expected_triangles);
     decoupling_ =
-        lamina::decouple(region.points, region.borders, region.size, region.far_field, region.options, refine);
+        decoupling::decouple(region.points, region.borders, region.size, region.far_field, region.options, refine);
     return {decoupling_.points, decoupling_.far_field};
 }
 

@@ -13,12 +13,15 @@
 
 #include <lamina/layers.hpp>
 #include <lamina/mesh_sink.hpp>
-#include <lamina/ranks.hpp>
 #include <lamina/stream.hpp>
 
 #include "core/busy_times.hpp"
+#include "core/connected_ranks.hpp"
+#include "core/limits.hpp"
 #include "decoupling/cut_region.hpp"
+#include "layers/layer.hpp"
 #include "mesh/piecewise_check.hpp"
+#include "mesh/shared_parts.hpp"
 #include "pipeline/mesh_limits.hpp"
 #include "pipeline/sharing/checked_pieces.hpp"
 #include "pipeline/sharing/held_parts.hpp"
@@ -36,7 +39,7 @@ struct DecoupledBorders {
 
 /// What the pieces of a mesh are made of, and where their check and their times go.
 struct PiecesWork {
-    const Layer& layer;
+    const layers::Layer& layer;
     LayerTopology topology;
     const DecompositionOptions& decomposition;
     std::span<const Marker> markers;
@@ -44,15 +47,15 @@ struct PiecesWork {
     core::BusyTimes& times;
     StageClock& clock;
 
-    LayerCells fill_layer() const;
+    layers::LayerCells fill_layer() const;
     /// Makes the cells of the layer a part of the check. Returns them as a mesh.
-    Mesh check_layer(const LayerCells& cells) const;
+    Mesh check_layer(const layers::LayerCells& cells) const;
 };
 
 /// All pieces of a mesh, and where its cells are: in the mesh, which has neither markers nor constraints, in a sink, or in parts
 /// with the processes.
 struct MadePieces {
-    LayerCells cells{};
+    layers::LayerCells cells{};
     Mesh layer{};  ///< the cells as a mesh, which are part of the check
     PiecesSummary summary{};
     std::vector<std::size_t> first_triangle{};  ///< of the subdomains in the mesh
@@ -60,7 +63,7 @@ struct MadePieces {
     std::string hash{};  ///< of the mesh, as mesh_hash() returns it, where it is not kept
     Mesh mesh{};
     std::unique_ptr<MeshSink> sink{};
-    std::unique_ptr<MeshParts> parts{};
+    std::shared_ptr<const mesh::MeshParts> parts{};
 };
 
 class MeshDriver {
@@ -81,7 +84,7 @@ public:
     /// Gives the vertices of the far field their places among those of decouple(), if they have none yet.
     virtual void place_far_field() {}
     /// Returns the first vertex beyond this layer, if processes match the borders of pieces there themselves.
-    virtual std::optional<VertexId> matched_elsewhere(const Layer& /*layer*/) const { return {}; }
+    virtual std::optional<VertexId> matched_elsewhere(const layers::Layer& /*layer*/) const { return {}; }
     /// Makes all pieces, and adds them and the layer to the check of the one that leads.
     virtual MadePieces make(const PiecesWork& work) = 0;
     /// Makes the narrow triangles that the one that leads has found known to all.
@@ -102,14 +105,14 @@ protected:
     /// Makes all pieces and hands them to the taker in the order of their numbers.
     MadePieces make_for(PartTaker& taker, bool with_hash, const PiecesWork& work);
 
-    Decoupling decoupling_;
+    decoupling::Decoupling decoupling_;
     PieceRules rules_;
 };
 
 /// Keeps the pieces as one mesh.
 class KeepingDriver final : public LocalDriver {
 public:
-    WorkCost cost() const override { return mesh_cost; }
+    WorkCost cost() const override { return core::mesh_cost; }
     MadePieces make(const PiecesWork& work) override;
 };
 
@@ -129,7 +132,7 @@ private:
 class SharingDriver final : public MeshDriver {
 public:
     /// Pieces are kept in memory, or on the disk of the file `beside`. The ranks must outlive this object.
-    SharingDriver(Ranks& ranks, std::optional<std::filesystem::path> beside)
+    SharingDriver(core::ConnectedRanks& ranks, std::optional<std::filesystem::path> beside)
         : ranks_(ranks), beside_(std::move(beside)) {}
 
     WorkCost cost() const override { return shared_cost(ranks_.size(), !beside_); }
@@ -137,7 +140,7 @@ public:
     DecoupledBorders decouple(const decoupling::OuterRegion& region, const RefineOptions& refine,
                               double expected_triangles) override;
     void place_far_field() override { shared_->place(shared_->cut.far_field); }
-    std::optional<VertexId> matched_elsewhere(const Layer& layer) const override {
+    std::optional<VertexId> matched_elsewhere(const layers::Layer& layer) const override {
         return VertexId{layer.points.size()};
     }
     MadePieces make(const PiecesWork& work) override;
@@ -146,7 +149,7 @@ public:
     void fail(const Error& error) override;
 
 private:
-    Ranks& ranks_;
+    core::ConnectedRanks& ranks_;
     const std::optional<std::filesystem::path> beside_;
     PieceRules rules_;
     std::optional<PieceMaker> maker_;

@@ -34,7 +34,7 @@ void MeshTaker::append(const MeshPart& part) {
 void MeshTaker::reserve() {
     constexpr double room = 1.05;  // estimates of many subdomains together are better than this
     double triangles = 0;
-    for (const Subdomain& subdomain : decoupling_.subdomains) triangles += subdomain.estimated_triangles;
+    for (const decoupling::Subdomain& subdomain : decoupling_.subdomains) triangles += subdomain.estimated_triangles;
     // There is half a vertex for each triangle.
     const auto vertices = static_cast<std::size_t>(room * triangles / 2),
                cells = static_cast<std::size_t>(room * triangles);

@@ -5,9 +5,9 @@
 #include <memory>
 #include <span>
 
-#include <lamina/decoupling.hpp>
-#include <lamina/layers.hpp>
 #include <lamina/mesh_sink.hpp>
+
+#include "decoupling/subdomain.hpp"
 
 namespace lamina::pipeline {
 
@@ -35,12 +35,12 @@ public:
 class MeshTaker final : public PartTaker {
 public:
     /// Expects about as many cells as the layer has and as the subdomains should have by estimate.
-    MeshTaker(const Decoupling& decoupling, Mesh& mesh) : decoupling_(decoupling), mesh_(mesh) {}
+    MeshTaker(const decoupling::Decoupling& decoupling, Mesh& mesh) : decoupling_(decoupling), mesh_(mesh) {}
 
     Append prepare(const MeshPart& part, std::shared_ptr<const Refinement> owner) override;
 
 private:
-    const Decoupling& decoupling_;
+    const decoupling::Decoupling& decoupling_;
     Mesh& mesh_;
 
     void append(const MeshPart& part);

@@ -31,7 +31,7 @@ std::vector<MeshPart> parts_of_points(std::span<const Point> points) {
     return parts;
 }
 
-std::vector<MeshPart> parts_of_layer(std::span<const Point> points, const LayerCells& cells) {
+std::vector<MeshPart> parts_of_layer(std::span<const Point> points, const layers::LayerCells& cells) {
     std::vector<MeshPart> parts;
     for (std::size_t piece = 0; piece < cells.pieces(); ++piece)
         for_parts(cells.first_triangle[piece], cells.first_triangle[piece + 1],
@@ -46,7 +46,7 @@ std::vector<MeshPart> parts_of_layer(std::span<const Point> points, const LayerC
     return parts;
 }
 
-std::vector<MeshPart> parts_behind_pieces(std::span<const Point> points, const LayerCells& cells,
+std::vector<MeshPart> parts_behind_pieces(std::span<const Point> points, const layers::LayerCells& cells,
                                           std::size_t triangles) {
     std::vector<MeshPart> parts;
     for_parts(0, cells.quads.size(), [&](std::size_t begin, std::size_t end) {
@@ -59,7 +59,7 @@ std::vector<MeshPart> parts_behind_pieces(std::span<const Point> points, const L
     return parts;
 }
 
-void number_in_mesh(const Subdomain& subdomain, std::size_t first_vertex, Refinement& refinement) {
+void number_in_mesh(const decoupling::Subdomain& subdomain, std::size_t first_vertex, Refinement& refinement) {
     assert(subdomain.global.size() == subdomain.points.size());
     const std::size_t shift = first_vertex - subdomain.global.size();
     for (Triangle& t : refinement.triangles)
@@ -77,7 +77,7 @@ MeshPart part_of_piece(std::span<const Point> points, std::size_t layer_pieces, 
             .piece = static_cast<std::uint32_t>(layer_pieces + piece)};
 }
 
-mesh::HashOfParts hash_of_piece(const Subdomain& subdomain, const Refinement& refinement) {
+mesh::HashOfParts hash_of_piece(const decoupling::Subdomain& subdomain, const Refinement& refinement) {
     mesh::HashOfParts hash;
     std::vector<Point> points = subdomain.points;
     points.insert(points.end(), refinement.steiner_points.begin(), refinement.steiner_points.end());

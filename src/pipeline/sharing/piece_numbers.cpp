@@ -28,7 +28,7 @@ std::vector<std::string> take_all(std::vector<Packer>& packers) {
 /// Successive pieces whose sizes a process adds up.
 class PieceBlock {
 public:
-    PieceBlock(std::size_t pieces, const Ranks& ranks)
+    PieceBlock(std::size_t pieces, const core::ConnectedRanks& ranks)
         : size_(std::max<std::size_t>(1, (pieces + ranks.size() - 1) / ranks.size())),
           begin_(std::min(pieces, size_ * ranks.rank())),
           numbers_(std::min(pieces, begin_ + size_) - begin_),
@@ -101,7 +101,8 @@ std::vector<std::string> begins_of_blocks(std::span<const std::string> sums, Mes
 
 }  // namespace
 
-NumberedPieces number_pieces(const HeldPieces& held, std::size_t pieces, const MeshCounts& before, Ranks& ranks) {
+NumberedPieces number_pieces(const HeldPieces& held, std::size_t pieces, const MeshCounts& before,
+                             core::ConnectedRanks& ranks) {
     PieceBlock block(pieces, ranks);
     Packer sum;
     sum.put(block.add_up(ranks.exchange(block.pack_sizes(held))));

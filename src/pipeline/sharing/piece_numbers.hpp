@@ -5,8 +5,8 @@
 #include <vector>
 
 #include <lamina/mesh_sink.hpp>
-#include <lamina/ranks.hpp>
 
+#include "core/connected_ranks.hpp"
 #include "pipeline/sharing/shared_pieces.hpp"
 
 namespace lamina::pipeline {
@@ -20,6 +20,7 @@ struct NumberedPieces {
 /// Collective: numbers so many pieces in their order, behind the vertices and triangles of `before`, which is that of rank 0.
 /// Each process adds up the sizes of successive pieces, and rank 0 those of the processes. Throws MeshError unless each
 /// piece was made once.
-NumberedPieces number_pieces(const HeldPieces& held, std::size_t pieces, const MeshCounts& before, Ranks& ranks);
+NumberedPieces number_pieces(const HeldPieces& held, std::size_t pieces, const MeshCounts& before,
+                             core::ConnectedRanks& ranks);
 
 }  // namespace lamina::pipeline

@@ -9,7 +9,7 @@ PieceStore::PieceStore(const std::optional<std::filesystem::path>& beside) {
     if (beside) file_ = std::make_unique<core::UnnamedFile>(*beside);
 }
 
-std::size_t PieceStore::put(Subdomain subdomain, Refinement refinement) {
+std::size_t PieceStore::put(decoupling::Subdomain subdomain, Refinement refinement) {
     Piece piece{std::move(subdomain),
                 {.points = refinement.steiner_points.size(), .triangles = refinement.triangles.size()}};
     if (file_) {

@@ -9,11 +9,12 @@
 #include <mutex>
 #include <optional>
 
-#include <lamina/decoupling.hpp>
 #include <lamina/delaunay.hpp>
 #include <lamina/mesh_sink.hpp>
 
 #include "core/unnamed_file.hpp"
+#include "decoupling/subdomain.hpp"
+#include "mesh/shared_parts.hpp"
 
 namespace lamina::pipeline {
 
@@ -25,20 +26,20 @@ public:
 
     /// Stores a piece, of whose refinement only points and triangles. Returns its place here. Any thread may call it.
     /// Throws IoError.
-    std::size_t put(Subdomain subdomain, Refinement refinement);
-    const Subdomain& subdomain(std::size_t place) const { return pieces_[place].subdomain; }
+    std::size_t put(decoupling::Subdomain subdomain, Refinement refinement);
+    const decoupling::Subdomain& subdomain(std::size_t place) const { return pieces_[place].subdomain; }
     /// Returns the refinement where it lies in memory; null: it is on the disk.
     Refinement* in_memory(std::size_t place) { return file_ ? nullptr : &pieces_[place].refinement; }
     const Refinement* in_memory(std::size_t place) const { return file_ ? nullptr : &pieces_[place].refinement; }
     /// Returns how many vertices and triangles a piece has.
-    PartCounts counts(std::size_t place) const { return pieces_[place].counts; }
+    mesh::PartCounts counts(std::size_t place) const { return pieces_[place].counts; }
     /// Returns a refinement from the disk, without statistics. Any thread may call it. Throws IoError.
     Refinement read(std::size_t place) const;
 
 private:
     struct Piece {
-        Subdomain subdomain;
-        PartCounts counts;
+        decoupling::Subdomain subdomain;
+        mesh::PartCounts counts;
         std::size_t offset = 0;   ///< in the file
         Refinement refinement{};  ///< in memory
     };

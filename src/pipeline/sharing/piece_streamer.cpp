@@ -13,7 +13,7 @@
 
 namespace lamina::pipeline {
 
-PieceStreamer::PieceStreamer(const Decoupling& decoupling, PartTaker& taker, bool with_hash)
+PieceStreamer::PieceStreamer(const decoupling::Decoupling& decoupling, PartTaker& taker, bool with_hash)
     : decoupling_(decoupling),
       taker_(taker),
       with_hash_(with_hash),
@@ -21,7 +21,7 @@ PieceStreamer::PieceStreamer(const Decoupling& decoupling, PartTaker& taker, boo
       in_order_([](const PartTaker::Append& append) { append(); }) {}
 
 std::vector<std::size_t> PieceStreamer::order() const {
-    const std::span<const Subdomain> subdomains = decoupling_.subdomains;
+    const std::span<const decoupling::Subdomain> subdomains = decoupling_.subdomains;
     // begin() lets all of the last ones be made once those before them are.
     const std::size_t in_turn = subdomains.size() - std::min(subdomains.size(), window_);
     std::vector<std::size_t> order(in_turn);
@@ -31,7 +31,7 @@ std::vector<std::size_t> PieceStreamer::order() const {
     return order;
 }
 
-void PieceStreamer::start(const LayerCells& cells) {
+void PieceStreamer::start(const layers::LayerCells& cells) {
     for (const MeshPart& part : parts_of_points(decoupling_.points)) taker_.take(part);
     for (const MeshPart& part : parts_of_layer(decoupling_.points, cells)) taker_.take(part);
     if (with_hash_) hash_.add(decoupling_.points, std::span<const Triangle>(cells.triangles));
@@ -82,7 +82,7 @@ std::vector<PieceStreamer::NumberedPiece> PieceStreamer::number_waiting() {
 }
 
 void PieceStreamer::hand_on(NumberedPiece piece) {
-    const Subdomain& subdomain = decoupling_.subdomains[piece.number];
+    const decoupling::Subdomain& subdomain = decoupling_.subdomains[piece.number];
     mesh::HashOfParts hash;
     if (with_hash_) hash = hash_of_piece(subdomain, piece.refinement);
     number_in_mesh(subdomain, piece.first_vertex, piece.refinement);

@@ -8,10 +8,9 @@
 #include <mutex>
 #include <vector>
 
-#include <lamina/decoupling.hpp>
-#include <lamina/layers.hpp>
-
 #include "core/in_order.hpp"
+#include "decoupling/subdomain.hpp"
+#include "layers/layer.hpp"
 #include "mesh/hash.hpp"
 #include "pipeline/sharing/part_takers.hpp"
 
@@ -23,7 +22,7 @@ namespace lamina::pipeline {
 class PieceStreamer {
 public:
     /// Hands the parts to the taker. Both arguments must outlive this object.
-    PieceStreamer(const Decoupling& decoupling, PartTaker& taker, bool with_hash);
+    PieceStreamer(const decoupling::Decoupling& decoupling, PartTaker& taker, bool with_hash);
 
     /// Returns the subdomains in the order in which threads should make them: that of their numbers, so that few pieces
     /// wait for others. But the last ones come in descending order of their size, so that no thread is left with a large
@@ -34,7 +33,7 @@ public:
 
     /// Hands on the vertices of the decoupling and the triangles of the layer, which must outlive this object. No piece
     /// is handed on before.
-    void start(const LayerCells& cells);
+    void start(const layers::LayerCells& cells);
     /// Waits until no more than a few pieces before this one are unfinished, so that threads do not run ahead of a slow
     /// one. Throws MeshError where another thread has failed.
     void begin(std::size_t piece);
@@ -58,11 +57,11 @@ private:
         Refinement refinement;
     };
 
-    const Decoupling& decoupling_;
+    const decoupling::Decoupling& decoupling_;
     PartTaker& taker_;
     const bool with_hash_;
-    const std::size_t window_;           ///< how many pieces may be made while one before them is not
-    const LayerCells* cells_ = nullptr;  ///< once they are known
+    const std::size_t window_;                   ///< how many pieces may be made while one before them is not
+    const layers::LayerCells* cells_ = nullptr;  ///< once they are known
     std::mutex mutex_;
     std::condition_variable changed_;
     std::map<std::size_t, Refinement> waiting_;  ///< pieces whose numbers are not known yet

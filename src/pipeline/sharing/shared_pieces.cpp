@@ -28,7 +28,7 @@ using core::Packer;
 using core::Unpacker;
 
 /// Returns what the others need to know of the border of a piece.
-HeldPiece describe_border(std::size_t number, const Subdomain& subdomain, std::span<const Segment> chain,
+HeldPiece describe_border(std::size_t number, const decoupling::Subdomain& subdomain, std::span<const Segment> chain,
                           std::span<const Point> points, mesh::PieceFindings& findings) {
     HeldPiece held;
     held.piece = number;
@@ -92,7 +92,7 @@ void SharedDecoupling::place(std::span<const Segment> edges) {
         for (const VertexId end : {edge.a, edge.b}) place(end.index(), end.index() + 1);
 }
 
-void PieceMaker::make(std::size_t number, Subdomain subdomain, std::span<const Segment> chain,
+void PieceMaker::make(std::size_t number, decoupling::Subdomain subdomain, std::span<const Segment> chain,
                       std::span<const Point> points, core::BusyTimes& times) {
     CheckedPiece made = refine_and_check_piece(subdomain, points, rules_, times);
     mesh::PieceFindings& findings = made.facts.findings;
@@ -126,7 +126,7 @@ std::unordered_set<std::size_t> PieceMaker::number_trapezoids(std::span<const de
 }
 
 std::unique_ptr<SharedDecoupling> cut_and_deal(const decoupling::OuterRegion& region, const RefineOptions& refine,
-                                               PieceMaker& maker, Ranks& ranks,
+                                               PieceMaker& maker, core::ConnectedRanks& ranks,
                                                const std::function<void()>& before_pieces) {
     core::BusyTimes times;  // these pieces count as a part of the decoupling
     const auto once_numbered = [&] {
@@ -135,7 +135,7 @@ std::unique_ptr<SharedDecoupling> cut_and_deal(const decoupling::OuterRegion& re
     };
     const auto make = [&](std::uint32_t trapezoid, const decoupling::LineBorder& border,
                           const decoupling::WorkEstimate& estimate, decoupling::Lines& lines) {
-        Subdomain subdomain = decoupling::make_subdomain(border, &estimate, lines, region.size, refine);
+        decoupling::Subdomain subdomain = decoupling::make_subdomain(border, &estimate, lines, region.size, refine);
         maker.make(trapezoid, std::move(subdomain), border_chain(border, lines).edges, lines.gathered(), times);
     };
     auto shared = std::make_unique<SharedDecoupling>(decoupling::cut_region(region, &ranks, {once_numbered, make}),
@@ -146,14 +146,15 @@ std::unique_ptr<SharedDecoupling> cut_and_deal(const decoupling::OuterRegion& re
     return shared;
 }
 
-HeldPieces take_and_refine(SharedDecoupling& shared, PieceMaker& maker, core::BusyTimes& times, Ranks& ranks) {
+HeldPieces take_and_refine(SharedDecoupling& shared, PieceMaker& maker, core::BusyTimes& times,
+                           core::ConnectedRanks& ranks) {
     const PieceDeal& deal = shared.deal;
     decoupling::CutRegion& cut = shared.cut;
     std::atomic<bool> failed = false;
     std::atomic<std::size_t> next_own = 0;
     const auto make_piece = [&](std::size_t number) {
-        Subdomain subdomain = decoupling::make_subdomain(cut.border(number), cut.borders[number].estimate.get(),
-                                                         cut.lines, shared.size, shared.refine);
+        decoupling::Subdomain subdomain = decoupling::make_subdomain(
+            cut.border(number), cut.borders[number].estimate.get(), cut.lines, shared.size, shared.refine);
         maker.make(number, std::move(subdomain), shared.chain(number).edges, shared.points(), times);
     };
     core::parallel_for(thread_count(), 1, [&](std::size_t, std::size_t) {
@@ -173,8 +174,8 @@ HeldPieces take_and_refine(SharedDecoupling& shared, PieceMaker& maker, core::Bu
     return held;
 }
 
-CountedMesh count_and_check(SharedDecoupling& shared, HeldPieces& held, const LayerCells& layer, double min_angle_deg,
-                            Ranks& ranks, mesh::PiecewiseCheck* check) {
+CountedMesh count_and_check(SharedDecoupling& shared, HeldPieces& held, const layers::LayerCells& layer,
+                            double min_angle_deg, core::ConnectedRanks& ranks, mesh::PiecewiseCheck* check) {
     // Asked here and not after the cuts, so that nobody has waited for the others since then.
     decoupling::require_same_borders(shared.cut, ranks);
     SharedSeams seams(shared, held, ranks);

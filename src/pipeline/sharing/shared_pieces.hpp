@@ -13,11 +13,11 @@
 #include <utility>
 #include <vector>
 
-#include <lamina/layers.hpp>
 #include <lamina/mesh_sink.hpp>
-#include <lamina/ranks.hpp>
 
+#include "core/connected_ranks.hpp"
 #include "decoupling/cut_region.hpp"
+#include "layers/layer.hpp"
 #include "mesh/hash.hpp"
 #include "pipeline/sharing/border_chain.hpp"
 #include "pipeline/sharing/checked_pieces.hpp"
@@ -75,8 +75,8 @@ public:
         : rules_(rules), store_(std::make_unique<PieceStore>(beside)) {}
 
     /// Refines and checks a piece, whose border_chain() has these edges, and stores it. `points` holds their ends.
-    void make(std::size_t piece, Subdomain subdomain, std::span<const Segment> chain, std::span<const Point> points,
-              core::BusyTimes& times);
+    void make(std::size_t piece, decoupling::Subdomain subdomain, std::span<const Segment> chain,
+              std::span<const Point> points, core::BusyTimes& times);
     /// Gives the pieces so far, which are those of trapezoids by their numbers, the numbers that they have among these.
     /// Returns the latter.
     std::unordered_set<std::size_t> number_trapezoids(std::span<const decoupling::EstimatedBorder> borders,
@@ -96,12 +96,13 @@ private:
 /// the work among themselves, and make pieces while they would wait for each other. They call `before_pieces` once they
 /// have waited for each other, and before they make any.
 std::unique_ptr<SharedDecoupling> cut_and_deal(const decoupling::OuterRegion& region, const RefineOptions& refine,
-                                               PieceMaker& maker, Ranks& ranks,
+                                               PieceMaker& maker, core::ConnectedRanks& ranks,
                                                const std::function<void()>& before_pieces);
 
 /// Makes the pieces that this process gets: its own ones, then those that whoever is free takes from a counter that all
 /// share. Where a piece fails, all processes end soon. Returns all pieces of the maker.
-HeldPieces take_and_refine(SharedDecoupling& shared, PieceMaker& maker, core::BusyTimes& times, Ranks& ranks);
+HeldPieces take_and_refine(SharedDecoupling& shared, PieceMaker& maker, core::BusyTimes& times,
+                           core::ConnectedRanks& ranks);
 
 /// Where the vertices and triangles of a piece begin in the mesh.
 struct PieceNumbers {
@@ -120,7 +121,7 @@ struct CountedMesh {
 /// Collective: numbers all pieces in their order, behind the triangles of the layer, matches their borders, and adds
 /// both to the check, whose pieces become one with the numbers of triangles that it has in the mesh. `check` is that of
 /// rank 0, which has its layer; null elsewhere. Nor does the layer count elsewhere.
-CountedMesh count_and_check(SharedDecoupling& shared, HeldPieces& held, const LayerCells& layer, double min_angle_deg,
-                            Ranks& ranks, mesh::PiecewiseCheck* check);
+CountedMesh count_and_check(SharedDecoupling& shared, HeldPieces& held, const layers::LayerCells& layer,
+                            double min_angle_deg, core::ConnectedRanks& ranks, mesh::PiecewiseCheck* check);
 
 }  // namespace lamina::pipeline

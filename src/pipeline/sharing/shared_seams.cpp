@@ -116,7 +116,7 @@ std::uint64_t sum_of_places(std::span<const Segment> edges, std::span<const Poin
     return sum;
 }
 
-SharedSeams::SharedSeams(SharedDecoupling& shared, const HeldPieces& held, Ranks& ranks)
+SharedSeams::SharedSeams(SharedDecoupling& shared, const HeldPieces& held, core::ConnectedRanks& ranks)
     : shared_(shared),
       held_(held),
       ranks_(ranks),

@@ -8,8 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include <lamina/ranks.hpp>
-
+#include "core/connected_ranks.hpp"
 #include "core/packing.hpp"
 #include "mesh/seams.hpp"
 #include "pipeline/sharing/seam_owners.hpp"
@@ -28,7 +27,7 @@ std::uint64_t sum_of_places(std::span<const Segment> edges, std::span<const Poin
 /// collect(), then ask() with a ratio that rank 0 knows, then findings().
 class SharedSeams {
 public:
-    SharedSeams(SharedDecoupling& shared, const HeldPieces& held, Ranks& ranks);
+    SharedSeams(SharedDecoupling& shared, const HeldPieces& held, core::ConnectedRanks& ranks);
 
     /// Collective: gives all border edges of the held pieces to those who match them, and pairs those of this process.
     void collect();
@@ -62,7 +61,7 @@ private:
 
     SharedDecoupling& shared_;
     const HeldPieces& held_;
-    Ranks& ranks_;
+    core::ConnectedRanks& ranks_;
     SeamOwners owners_;
     std::vector<mesh::PieceBorderEdge> along_layer_;
     std::vector<Source> sources_along_layer_, sources_;  ///< the latter of the edges of seams_

@@ -1,12 +1,12 @@
 // What all kinds of ranks have in common: the question before each collective function, and the count of what is sent.
-#include <lamina/ranks.hpp>
+#include "core/connected_ranks.hpp"
 
 #include <exception>
 #include <utility>
 
 #include "core/packing.hpp"
 
-namespace lamina {
+namespace lamina::core {
 
 namespace {
 
@@ -15,51 +15,51 @@ constexpr std::uint64_t beyond_all = std::uint64_t{1} << 48;
 
 }  // namespace
 
-void Ranks::count(std::size_t bytes) {
+void ConnectedRanks::count(std::size_t bytes) {
     ++messages_;
     bytes_ += bytes;
 }
 
-void Ranks::agree() {
+void ConnectedRanks::agree() {
     count(sizeof(int));
     const unsigned failed = lowest_failed(false);
     if (failed == size()) return;
     const std::string packed = do_broadcast({}, failed);
-    core::Unpacker failure(packed);
+    Unpacker failure(packed);
     const auto code = failure.get<ExitCode>();
     throw RankFailure(code, failure.get_text());
 }
 
-void Ranks::fail(ExitCode code, const std::string& line) {
+void ConnectedRanks::fail(ExitCode code, const std::string& line) {
     do_add_to_counter(beyond_all);
-    core::Packer failure;
+    Packer failure;
     failure.put(code);
     failure.put_text(line);
     const std::string packed = failure.take();
     count(sizeof(int) + packed.size());
     const unsigned failed = lowest_failed(true);
     const std::string of_lowest = do_broadcast(packed, failed);
-    core::Unpacker lowest(of_lowest);
+    Unpacker lowest(of_lowest);
     const auto its_code = lowest.get<ExitCode>();
     throw RankFailure(its_code, lowest.get_text());
 }
 
-void Ranks::reset_counter() {
+void ConnectedRanks::reset_counter() {
     agree();
     do_reset_counter();
 }
 
-std::uint64_t Ranks::next_number() {
+std::uint64_t ConnectedRanks::next_number() {
     count(sizeof(std::uint64_t));
     return do_add_to_counter(1);
 }
 
-bool Ranks::has_failed() {
+bool ConnectedRanks::has_failed() {
     count(sizeof(std::uint64_t));
     return do_add_to_counter(0) >= beyond_all;
 }
 
-std::vector<std::string> Ranks::gather(std::string_view bytes) {
+std::vector<std::string> ConnectedRanks::gather(std::string_view bytes) {
     agree();
     count(rank() == 0 ? 0 : bytes.size());
     return do_gather(bytes);
@@ -69,7 +69,7 @@ std::vector<std::string> Ranks::gather(std::string_view bytes) {
 //             0 <-1   2 <-3   4 <-5
 //             0 <---- 2       4
 //             0 <------------ 4
-std::string Ranks::reduce(std::string bytes, const Join& join) {
+std::string ConnectedRanks::reduce(std::string bytes, const Join& join) {
     agree();
     std::exception_ptr failure;
     for (unsigned step = 1; step < size(); step *= 2) {
@@ -91,13 +91,13 @@ std::string Ranks::reduce(std::string bytes, const Join& join) {
     return bytes;
 }
 
-std::vector<std::string> Ranks::all_gather(std::string_view bytes) {
+std::vector<std::string> ConnectedRanks::all_gather(std::string_view bytes) {
     agree();
     count((size() - 1) * bytes.size());
     return do_all_gather(bytes);
 }
 
-std::string Ranks::scatter(const std::vector<std::string>& bytes) {
+std::string ConnectedRanks::scatter(const std::vector<std::string>& bytes) {
     agree();
     std::size_t sent = 0;
     if (rank() == 0)
@@ -106,7 +106,7 @@ std::string Ranks::scatter(const std::vector<std::string>& bytes) {
     return do_scatter(bytes);
 }
 
-std::vector<std::string> Ranks::exchange(const std::vector<std::string>& bytes) {
+std::vector<std::string> ConnectedRanks::exchange(const std::vector<std::string>& bytes) {
     agree();
     std::size_t sent = 0;
     for (unsigned to = 0; to < size(); ++to)
@@ -116,8 +116,8 @@ std::vector<std::string> Ranks::exchange(const std::vector<std::string>& bytes) 
 }
 
 // As in reduce(), and then in the other direction.
-std::vector<std::string> Ranks::all_gather_among(unsigned members, std::string_view bytes) {
-    core::Packer packer;
+std::vector<std::string> ConnectedRanks::all_gather_among(unsigned members, std::string_view bytes) {
+    Packer packer;
     packer.put_text(bytes);
     std::string packed = packer.take();
     const auto send = [&](unsigned to) {
@@ -134,23 +134,24 @@ std::vector<std::string> Ranks::all_gather_among(unsigned members, std::string_v
     while ((step /= 2) > 0)
         if (rank() + step < members) send(rank() + step);
     std::vector<std::string> all;
-    for (core::Unpacker unpacker(packed); !unpacker.at_end();) all.push_back(unpacker.get_text());
+    for (Unpacker unpacker(packed); !unpacker.at_end();) all.push_back(unpacker.get_text());
     return all;
 }
 
-std::unique_ptr<PendingGather> Ranks::start_all_gather(std::string_view bytes) {
+std::unique_ptr<PendingGather> ConnectedRanks::start_all_gather(std::string_view bytes) {
     return std::unique_ptr<PendingGather>(new PendingGather(*this, bytes));
 }
 
-std::string Ranks::broadcast(std::string_view bytes) {
+std::string ConnectedRanks::broadcast(std::string_view bytes) {
     agree();
     count(rank() == 0 ? (size() - 1) * bytes.size() : 0);
     return do_broadcast(bytes, 0);
 }
 
-std::unique_ptr<SharedFile> Ranks::open_file(const std::filesystem::path& file, const std::filesystem::path& target) {
+std::unique_ptr<SharedFile> ConnectedRanks::open_file(const std::filesystem::path& file,
+                                                      const std::filesystem::path& target) {
     agree();
     return do_open_file(file, target);
 }
 
-}  // namespace lamina
+}  // namespace lamina::core

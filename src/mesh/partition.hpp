@@ -8,7 +8,7 @@
 #include <lamina/export.hpp>
 #include <lamina/mesh.hpp>
 
-namespace lamina {
+namespace lamina::mesh {
 
 /// Divides the cells of a mesh into compact parts whose numbers of cells differ by one at most, and returns the part of
 /// each cell, triangles first, from 0. A set of cells is halved across the longer side of the box round their middles, and
@@ -17,4 +17,4 @@ namespace lamina {
 /// Comput. 36 (1987).
 LAMINA_EXPORT std::vector<std::uint32_t> partition_cells(const MeshView& mesh, std::size_t parts);
 
-}  // namespace lamina
+}  // namespace lamina::mesh

@@ -1,0 +1,60 @@
+// The stages "decouple" and "refine": the outer region, between layers and far field, is cut into subdomains with frozen,
+// graded borders, which are refined independently. Source: J. K. Pardue, thesis (2015), chapter 5; L. Linardakis, N.
+// Chrisochoides, SIAM J. Sci. Comput. 27 (2006).
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <lamina/decoupling.hpp>
+#include <lamina/delaunay.hpp>
+#include <lamina/export.hpp>
+#include <lamina/ids.hpp>
+#include <lamina/point.hpp>
+#include <lamina/sizing.hpp>
+
+#include "decoupling/far_field.hpp"
+
+namespace lamina::decoupling {
+
+/// A part of the outer region that is refined by itself: refine(subdomain) needs nothing else, whether it runs on
+/// another thread, in another process or from a file.
+struct Subdomain {
+    std::vector<Point> points;       ///< border vertices
+    std::vector<VertexId> global;    ///< their ids in Decoupling::points, ascending
+    std::vector<Segment> segments;   ///< border edges between indices into points; the subdomain lies on their left
+    SizeField size{1.0};             ///< the size field, restricted to the box round the subdomain
+    RefineOptions refine;            ///< the options given, with the estimate and whether a lattice may pay
+    double estimated_triangles = 0;  ///< number of triangles that refinement will make, by estimate
+};
+
+/// The outer region, cut into subdomains.
+struct Decoupling {
+    std::vector<Point> points;           ///< the points handed in, then the vertices of separators and far field
+    std::vector<Segment> far_field;      ///< edges of the far field; the region lies on their left
+    std::vector<Subdomain> subdomains;   ///< in an order that does not depend on the number of threads
+    std::size_t separator_vertices = 0;  ///< number of vertices of separators and far field
+};
+
+/// Cuts the outer region, between the borders of the layers and the far field, into subdomains of about equal work.
+/// `borders` are closed loops of indices into `points`, counter-clockwise round each body and its layer. The subdomains
+/// depend on the arguments alone, never on the number of threads. Throws OptionError for options out of range, and
+/// where the far field does not enclose the borders with some room.
+LAMINA_EXPORT Decoupling decouple(std::span<const Point> points, std::span<const std::vector<VertexId>> borders,
+                                  const SizeField& size, const FarField& far_field,
+                                  const DecouplingOptions& options = {}, const RefineOptions& refine = {});
+
+/// Returns the number of triangles that the refinement of the outer region will make, by estimate, before it is cut
+/// into subdomains. Takes the arguments of decouple() and a few milliseconds. Throws OptionError where the far field
+/// does not enclose the borders with some room.
+LAMINA_EXPORT double estimate_triangles(std::span<const Point> points, std::span<const std::vector<VertexId>> borders,
+                                        const SizeField& size, const FarField& far_field);
+
+/// Refines one subdomain. Throws as refine(points, segments, size, options) does.
+LAMINA_EXPORT Refinement refine(const Subdomain& subdomain);
+
+/// Refines all subdomains in parallel, the largest first. The results stand in the order of the subdomains.
+LAMINA_EXPORT std::vector<Refinement> refine(std::span<const Subdomain> subdomains);
+
+}  // namespace lamina::decoupling

@@ -1,0 +1,30 @@
+// What other stages do with potential flow, and when it counts as a failure.
+#pragma once
+
+#include <lamina/export.hpp>
+#include <lamina/flow.hpp>
+
+namespace lamina::flow {
+
+/// Returns the flow along the same walls in which all elements have this share of their lift, as viscous flow has less
+/// than potential flow. Only the panels differ: the means of sheets with and without lift, weighted by the share, since
+/// potential flows may be added. With another share than 1 the flow turns round trailing edges.
+LAMINA_EXPORT Flow with_share_of_lift(Flow flow, double share);
+
+/// Faster flow, as a multiple of the free stream's speed, is taken for a failure of the panel method.
+inline constexpr double max_flow_speed = 100;
+
+/// So is a larger velocity through the panels of an element, as the median over their middles and a multiple of the
+/// free stream's speed.
+inline constexpr double max_flow_leak = 0.02;
+
+/// Returns the pressure coefficient of subsonic flow of this Mach number where incompressible flow has `incompressible`,
+/// or minus infinity where the formula has none. Precondition: 0 <= mach < 1.
+/// Source: T. von Karman, J. Aeronaut. Sci. 8 (1941), after H. S. Tsien.
+LAMINA_EXPORT double compressed_pressure_coefficient(double incompressible, double mach);
+
+/// Returns the length of all walls, in chords, along which flow of a Mach number is expected to be faster than sound
+/// by compressed_pressure_coefficient(). Precondition: 0 < mach < 1.
+double supersonic_length(const Flow& flow, double mach);
+
+}  // namespace lamina::flow
