@@ -5,6 +5,7 @@
 #include <iterator>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -34,7 +35,7 @@ namespace {
 struct FlowArguments {
     std::vector<std::string> inputs;
     std::map<std::string, std::string> conditions;  ///< values by the names of option_table<FlowConditions>()
-    std::string table, picture;
+    std::string table, picture, mach_picture;
 };
 
 const char* state_name(BoundaryLayerState state) {
@@ -186,6 +187,7 @@ struct FlowText {
     std::string table, summary;
     std::vector<ChartCurve> curves;
     std::array<double, 2> pressures;
+    std::optional<CompressibleFlow> compressible{};  ///< where the flow is faster than sound
 };
 
 FlowText text_of(const Flow& flow, const std::string& before, bool has_layers) {
@@ -194,12 +196,29 @@ FlowText text_of(const Flow& flow, const std::string& before, bool has_layers) {
     return {flow_table(flow), before + flow_summary(flow, has_layers), std::move(curves), pressures};
 }
 
-FlowText text_of(const CompressibleFlow& flow) {
+FlowText text_of(CompressibleFlow flow) {
     std::vector<ChartCurve> curves = pressure_curves(flow);
     double low = 0, high = 0;
     for (const ChartCurve& curve : curves)
         for (const Point p : curve.points) low = std::min(low, p.y), high = std::max(high, p.y);
-    return {compressible_table(flow), compressible_summary(flow), std::move(curves), {low, high}};
+    std::string table = compressible_table(flow), summary = compressible_summary(flow);
+    return {std::move(table), std::move(summary), std::move(curves), {low, high}, std::move(flow)};
+}
+
+/// Draws the Mach number round the bodies, with the line where the flow is as fast as sound.
+void draw_mach_numbers(const CompressibleFlow& flow, const std::string& file) {
+    constexpr double margin = 0.6;  // of the longer side of the box round the bodies
+    Box box;
+    for (const CompressibleElement& element : flow.elements)
+        for (const CompressibleSide* side : {&element.upper, &element.lower})
+            for (const CompressibleWallPoint& p : side->points) box.include(p.at);
+    const double away = margin * std::max(box.width(), box.height());
+    Mesh mesh;
+    mesh.points = flow.points;
+    mesh.triangles = flow.triangles;
+    const PlotWindow window{.box = {box.lower.x - away, box.upper.x + away, box.lower.y - away, box.upper.y + away}};
+    plot_field(mesh, {"Mach number", flow.mach_numbers, 1.0}, file,
+               {.window = window, .axes = true, .color_bar = true});
 }
 
 /// Solves the flow that the conditions ask for: compressible flow with shocks where it is faster than sound, else potential
@@ -221,6 +240,7 @@ std::vector<RunFile> files_written(const FlowArguments& arguments) {
     std::vector<RunFile> files;
     if (!arguments.table.empty()) files.push_back({arguments.table, "option --output"});
     if (!arguments.picture.empty()) files.push_back({arguments.picture, "option --picture"});
+    if (!arguments.mach_picture.empty()) files.push_back({arguments.mach_picture, "option --mach-picture"});
     return files;
 }
 
@@ -234,7 +254,10 @@ void flow(const FlowArguments& arguments) {
     const std::vector<RunFile> outputs = files_written(arguments);
     require_distinct(files_of_case(mesh_case), outputs);
     for (const RunFile& output : outputs) check_folder_writable(output.path);
-    if (!arguments.picture.empty()) check_picture_format(arguments.picture);
+    for (const std::string& picture : {arguments.picture, arguments.mach_picture})
+        if (!picture.empty()) check_picture_format(picture);
+    if (!arguments.mach_picture.empty() && !conditions.mach)
+        throw UsageError("option --mach-picture needs a Mach number (--mach)");
     const SignalGuard guard(outputs);
 
     const CaseOptions& options = mesh_case.options;
@@ -243,10 +266,15 @@ void flow(const FlowArguments& arguments) {
     print_warnings_of_reader(geometry);
     const FlowText text = solve(geometry, prepare_surfaces(geometry, options.surface, reference.chord), conditions,
                                 reference.reynolds.has_value());
+    if (!arguments.mach_picture.empty() && !text.compressible)
+        throw UsageError(
+            "option --mach-picture: at this Mach number the flow is slower than sound, but for short peaks");
     if (!arguments.table.empty()) write_file(arguments.table, text.table);
     if (!arguments.picture.empty())
         plot_chart(text.curves, arguments.picture,
                    {.x_label = "x", .y_label = "pressure coefficient", .y_downwards = true, .y_range = text.pressures});
+    if (text.compressible && !arguments.mach_picture.empty())
+        draw_mach_numbers(*text.compressible, arguments.mach_picture);
     print_summary(text.summary, outputs);
 }
 
@@ -266,6 +294,12 @@ void add_flow_command(CLI::App& app) {
     command
         ->add_option("--picture", arguments->picture,
                      "picture of the pressure coefficients to write; its extension says the format: .png, .svg or .pdf")
+        ->type_name("FILE");
+    command
+        ->add_option(
+            "--mach-picture", arguments->mach_picture,
+            "picture of the Mach numbers round the bodies to write, where the flow is faster than sound: .png, "
+            ".svg or .pdf")
         ->type_name("FILE");
     command->callback([arguments] { flow(*arguments); });
 }

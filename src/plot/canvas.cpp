@@ -1,6 +1,7 @@
 #include "plot/canvas.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <vector>
 
@@ -119,6 +120,25 @@ bool Canvas::clip_segment(Point& a, Point& b) const {
     if (to < 1) b = start + to * d;
     if (from > 0) a = start + from * d;
     return true;
+}
+
+void draw_on_image(Canvas& canvas, const PictureView& view, const std::function<void(Canvas&)>& draw) {
+    constexpr double image_resolution = 2;     // pixels of the image per pixel of the picture
+    constexpr double max_image_pixels = 4096;  // of its longer side
+    const double resolution = std::min(image_resolution, max_image_pixels / std::max(view.width, view.height));
+    using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
+    const Surface image{
+        cairo_image_surface_create(CAIRO_FORMAT_ARGB32, static_cast<int>(std::ceil(view.width * resolution)),
+                                   static_cast<int>(std::ceil(view.height * resolution))),
+        cairo_surface_destroy};
+    if (cairo_surface_status(image.get()) != CAIRO_STATUS_SUCCESS) return draw(canvas);
+    cairo_surface_set_device_scale(image.get(), resolution, resolution);
+    {
+        Canvas on_image(image.get(), view);
+        draw(on_image);
+    }
+    cairo_surface_flush(image.get());
+    canvas.put(image.get());
 }
 
 }  // namespace lamina::plot

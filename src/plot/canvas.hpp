@@ -3,6 +3,7 @@
 
 #include <cairo.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -45,5 +46,9 @@ private:
     PictureView view_;
     Box bounds_;  ///< the window and a few pixels round it
 };
+
+/// Lets `draw` draw on an image of its own, which is put over the whole picture, or on the canvas itself where memory is
+/// lacking. Of vector graphics many small parts become one image so.
+void draw_on_image(Canvas& canvas, const PictureView& view, const std::function<void(Canvas&)>& draw);
 
 }  // namespace lamina::plot

@@ -31,8 +31,6 @@ constexpr Color wall_edge{0.72, 0.08, 0.12};
 constexpr double min_outlined_thickness = 0.5;  ///< thinner cells are filled instead of outlined
 constexpr double min_drawn_thickness = 1;       ///< in vector graphics, many thinner cells become part of an image
 constexpr std::size_t many_cells = 1000;
-constexpr double image_resolution = 2;     ///< pixels of that image per pixel of the picture
-constexpr double max_image_pixels = 4096;  ///< of its longer side
 
 /// The widths of lines in pixels.
 struct LineWidths {
@@ -139,27 +137,6 @@ void draw_drawn_cells(Canvas& canvas, const Mesh& mesh, const DrawnCells& drawn,
     draw_edges(canvas, mesh, drawn.cells, view, edge_width, colored ? 0.45 : 1);
 }
 
-/// Draws the cells into an image, and puts that into the picture.
-void draw_as_image(Canvas& canvas, const Mesh& mesh, const DrawnCells& drawn, const PictureView& view, bool colored,
-                   double edge_width) {
-    const double resolution = std::min(image_resolution, max_image_pixels / std::max(view.width, view.height));
-    using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
-    const Surface image{
-        cairo_image_surface_create(CAIRO_FORMAT_ARGB32, static_cast<int>(std::ceil(view.width * resolution)),
-                                   static_cast<int>(std::ceil(view.height * resolution))),
-        cairo_surface_destroy};
-    // Where memory is lacking, the file is larger.
-    if (cairo_surface_status(image.get()) != CAIRO_STATUS_SUCCESS)
-        return draw_drawn_cells(canvas, mesh, drawn, view, colored, edge_width);
-    cairo_surface_set_device_scale(image.get(), resolution, resolution);
-    {
-        Canvas on_image(image.get(), view);
-        draw_drawn_cells(on_image, mesh, drawn, view, colored, edge_width);
-    }
-    cairo_surface_flush(image.get());
-    canvas.put(image.get());
-}
-
 void draw(cairo_surface_t* surface, const Mesh& mesh, const PictureView& view, const PlotOptions& options) {
     const std::vector<VisibleCell> cells = visible_cells(mesh, view.window);
     const CellColors colors = color_cells(mesh, cells, options.color);
@@ -171,7 +148,8 @@ void draw(cairo_surface_t* surface, const Mesh& mesh, const PictureView& view, c
     DrawnCells drawn{cells, colors.colors};
     if (cairo_surface_get_type(surface) != CAIRO_SURFACE_TYPE_IMAGE)
         if (const DrawnCells small = take_small_cells(drawn, view); !small.cells.empty())
-            draw_as_image(canvas, mesh, small, view, colored, widths.edge);
+            draw_on_image(canvas, view,
+                          [&](Canvas& image) { draw_drawn_cells(image, mesh, small, view, colored, widths.edge); });
     draw_drawn_cells(canvas, mesh, drawn, view, colored, widths.edge);
     draw_markers(canvas, mesh, widths);
     if (!has_cells) draw_dots(canvas, mesh, view, 1.2 * widths.wall);

@@ -40,11 +40,21 @@ TEST(FlowCommand, ReportsShocksBeyondTheCriticalMachNumber) {
     const ProgramRun run = run_lamina(
         folder, {"flow", "naca:0012", "--alpha", "1.25", "--mach", "0.8", "-o", "a.csv", "--picture", "a.png"});
     ASSERT_EQ(run.exit_code, 0) << run.err;
-    for (const char* words : {"lift coefficient 0.3", "drag coefficient of the shocks 0.02", "cp* -0.4346",
+    for (const char* words : {"lift coefficient 0.3", "drag coefficient 0.02", "of shocks", "cp* -0.4346",
                               "shock at 0.6", "shock at 0.3", "without boundary layers"})
         EXPECT_NE(run.out.find(words), std::string::npos) << words << run.out;
-    EXPECT_TRUE(folder.read("a.csv").starts_with("element,side,x,y,cp,mach\nairfoil,upper,"));
+    EXPECT_TRUE(folder.read("a.csv").starts_with(
+        "element,side,x,y,cp,mach,momentum,displacement,skin_friction\nairfoil,upper,"));
     EXPECT_EQ(folder.read("a.png").substr(1, 3), "PNG");
+    const ProgramRun turbulent = run_lamina(folder, {"flow", "naca:0012", "--alpha", "2.5", "--mach", "0.76",
+                                                     "--reynolds", "6e6", "--mach-picture", "mach.png"});
+    ASSERT_EQ(turbulent.exit_code, 0) << turbulent.err;
+    for (const char* words : {"with boundary layers", "of them of boundary layers", "shock at 0.50"})
+        EXPECT_NE(turbulent.out.find(words), std::string::npos) << words << turbulent.out;
+    EXPECT_EQ(folder.read("mach.png").substr(1, 3), "PNG");
+    expect_refused(folder, {"flow", "naca:0012", "--mach-picture", "b.png"}, usage, "--mach");
+    expect_refused(folder, {"flow", "naca:0012", "--mach", "0.4", "--mach-picture", "b.png"}, usage,
+                   "slower than sound");
     const ProgramRun slow = run_lamina(folder, {"flow", "naca:0012", "--alpha", "2", "--mach", "0.5"});
     ASSERT_EQ(slow.exit_code, 0) << slow.err;
     EXPECT_NE(slow.out.find("below the critical Mach number"), std::string::npos) << slow.out;

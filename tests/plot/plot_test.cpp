@@ -48,6 +48,29 @@ TEST(Plot, WritesEveryFormatAndColor) {
     EXPECT_EQ(folder.read("m.PDF").substr(0, 5), "%PDF-");
 }
 
+TEST(Plot, DrawsFieldsInEveryFormat) {
+    const TemporaryFolder folder;
+    const Mesh mesh = annulus({.quads_in_layer = true});
+    PlotField field{"x", {}, {}};
+    for (const Point p : mesh.points) field.values.push_back(p.x);
+    std::set<std::string> pictures;
+    const auto picture = [&] {
+        plot_field(mesh, field, folder / "m.png", {.width_px = 300, .color_bar = true});
+        pictures.insert(folder.read("m.png"));
+    };
+    picture();
+    field.line = 0.1;
+    picture();
+    field.values.assign(mesh.points.size(), 2);  // has no colours
+    picture();
+    EXPECT_EQ(pictures.size(), 3u);
+    plot_field(mesh, field, folder / "m.svg", {.width_px = 300});
+    EXPECT_NE(folder.read("m.svg").find("<image"), std::string::npos);
+    plot_field(mesh, field, folder / "m.pdf", {.width_px = 300});
+    field.values.pop_back();
+    EXPECT_THROW(plot_field(mesh, field, folder / "m.png"), UsageError);
+}
+
 TEST(Plot, KeepsTheAspectOfTheWindow) {
     const TemporaryFolder folder;
     const Mesh mesh = annulus();
