@@ -10,6 +10,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <lamina/io.hpp>
+
 #include "app/format_help.hpp"
 #include "app/presets.hpp"
 #include "core/option_builders.hpp"
