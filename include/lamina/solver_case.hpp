@@ -66,13 +66,11 @@ struct SolverConditions {
 
 /// Returns WarningCode::unsuited_to_solver where most cells of the layer are triangles, on which simpleFoam diverges.
 LAMINA_EXPORT std::vector<Warning> find_solver_warnings(FlowSolver solver, const Mesh& mesh);
-/// Returns WarningCode::unsuited_speed where a case or its mesh is not made for this Mach number. For OpenFOAM that is
-/// above 0.5, and where the flow is expected to be supersonic along more than 0.05 chords of the walls, by the pressures
-/// of the incompressible flow before the mesh (null where there is none) and Karman and Tsien's rule. SU2's settings are
-/// made for all Mach numbers: there it is where sizes follow no shocks (FlowDecisions::knows_shocks) that are expected,
-/// and at supersonic free streams, whose bow shocks they leave out.
-LAMINA_EXPORT std::vector<Warning> find_speed_warnings(FlowSolver solver, double mach, const Flow* flow,
-                                                       bool knows_shocks);
+/// Returns WarningCode::unsuited_speed where the mesh of a compressible case is not made for this Mach number: sizes follow
+/// no shocks (FlowDecisions::knows_shocks), and the Mach number is above 0.5, or the flow is expected to be supersonic
+/// along more than 0.05 chords of the walls, by the pressures of the incompressible flow before the mesh (null where there
+/// is none) and Karman and Tsien's rule; and at supersonic free streams, whose bow shocks sizes leave out.
+LAMINA_EXPORT std::vector<Warning> find_speed_warnings(double mach, const Flow* flow, bool knows_shocks);
 /// Returns the names of all files of a case in this folder. The first is the mesh, or the folder that it is in.
 LAMINA_EXPORT std::vector<std::filesystem::path> solver_case_outputs(FlowSolver solver,
                                                                      const std::filesystem::path& folder,

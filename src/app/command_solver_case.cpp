@@ -52,8 +52,8 @@ std::vector<Warning> warnings_of_case(FlowSolver solver, const MeshResult& resul
     std::vector<Warning> warnings = find_solver_warnings(solver, result.mesh);
     if (solver == FlowSolver::openfoam && !options.compressible) return warnings;
     std::vector<Warning> of_speed =
-        find_speed_warnings(solver, result.conditions.mach.value_or(default_case_mach),
-                            result.flow ? &*result.flow : nullptr, result.decisions.knows_shocks);
+        find_speed_warnings(result.conditions.mach.value_or(default_case_mach), result.flow ? &*result.flow : nullptr,
+                            result.decisions.knows_shocks);
     std::move(of_speed.begin(), of_speed.end(), std::back_inserter(warnings));
     return warnings;
 }

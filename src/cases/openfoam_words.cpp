@@ -47,6 +47,7 @@ std::string symmetry_patches(const std::vector<std::string>& names) {
 void add_medium(const CaseFlow& flow, Words& words) {
     words["APPLICATION"] = flow.compressible ? "rhoSimpleFoam" : "simpleFoam";
     words["MACH"] = number(flow.compressible ? flow.mach : 0);
+    words["TRANSONIC"] = flow.compressible && flow.mach > largest_low_mach ? "yes" : "no";
     if (!flow.compressible) {
         words["PRESSURE"] = "0";
         return;

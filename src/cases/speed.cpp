@@ -1,4 +1,4 @@
-// Mach numbers for which the settings of the cases are not made.
+// Mach numbers for which the meshes of the cases are not made.
 #include <string>
 
 #include <fmt/format.h>
@@ -21,25 +21,19 @@ Warning unsuited_speed(double mach, const std::string& why) {
 
 }  // namespace
 
-std::vector<Warning> find_speed_warnings(FlowSolver solver, double mach, const Flow* flow, bool knows_shocks) {
+std::vector<Warning> find_speed_warnings(double mach, const Flow* flow, bool knows_shocks) {
     // Up to Mach 0.5 pressures are within 15 % of those of the incompressible flow that the mesh is made for (Prandtl,
     // Glauert). The CRM-HL at Mach 0.2 is supersonic along 0.026 chords by this measure, and its cases run.
     constexpr double largest_mach = 0.5, longest = 0.05;
+    if (mach >= 1)
+        return {unsuited_speed(mach, ": sizes follow no bow shocks: compare with finer meshes (lamina family)")};
     double length = 0;
-    if (flow != nullptr && !flow->estimated && mach > 0 && mach < 1) length = flow::supersonic_length(*flow, mach);
+    if (flow != nullptr && !flow->estimated && mach > 0) length = flow::supersonic_length(*flow, mach);
+    if (knows_shocks || (mach <= largest_mach && length <= longest)) return {};
     const std::string where =
         length > longest
             ? fmt::format(", where the flow is expected to be supersonic along {:.2f} chords of the walls", length)
             : "";
-    if (solver == FlowSolver::openfoam) {
-        if (mach <= largest_mach && length <= longest) return {};
-        return {unsuited_speed(mach, fmt::format("{}: the settings of the case and sizes are those of Mach {}, without "
-                                                 "shocks: give system/fvSchemes schemes and limiters for them",
-                                                 where, default_case_mach))};
-    }
-    if (mach >= 1)
-        return {unsuited_speed(mach, ": sizes follow no bow shocks: compare with finer meshes (lamina family)")};
-    if (knows_shocks || (mach <= largest_mach && length <= longest)) return {};
     return {unsuited_speed(mach, where + ": sizes follow no shocks: compare with finer meshes (lamina family)")};
 }
 

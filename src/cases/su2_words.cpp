@@ -39,10 +39,8 @@ Words su2_words(const CaseFlow& flow) {
                                             intensity)
                                   : laminar ? ""
                                             : "SA_OPTIONS= NONE";
-    // Up to this Mach number no flow round a section has a shock that is worth a limiter, which stalls where there is none.
-    // Beyond, Roe's scheme needs no correction, and limits by the changes of an edge in 0.05 lengths (V. Venkatakrishnan,
-    // J. Comput. Phys. 118 (1995)): RAE 2822 at Mach 0.734 settles within 300 iterations.
-    constexpr double largest_low_mach = 0.3;
+    // A limiter stalls where there is no shock. Beyond the low Mach numbers Roe's scheme needs no correction, and limits by
+    // the changes of an edge in 0.05 lengths (V. Venkatakrishnan, J. Comput. Phys. 118 (1995)).
     words["SPEED_OPTIONS"] = flow.mach <= largest_low_mach
                                  ? "LOW_MACH_CORR= YES\nSLOPE_LIMITER_FLOW= NONE"
                                  : "LOW_MACH_CORR= NO\nSLOPE_LIMITER_FLOW= VENKATAKRISHNAN\nVENKAT_LIMITER_COEFF= 0.05";
