@@ -23,7 +23,7 @@ constexpr double smoothing_length = 0.03;
 /// Length of the wake.
 constexpr double wake_length = 1;
 /// Largest change of the displaced flux in a step, as a share.
-constexpr double largest_change = 0.1;
+constexpr double largest_share = 0.1;
 /// Share of the change of a force that a step makes.
 constexpr double force_relaxation = 0.3;
 
@@ -49,7 +49,7 @@ std::vector<double> next_displaced(std::span<const Station> stations, std::span<
                                    double length) {
     std::vector<double> changes;
     for (std::size_t i = 0; i < stations.size(); ++i) {
-        const double most = largest_change * stations[i].displaced;
+        const double most = largest_share * stations[i].displaced;
         changes.push_back(std::clamp(layers[i].displaced - stations[i].displaced, -most, most));
     }
     changes = smoothed(stations, changes, length);
