@@ -60,19 +60,6 @@ struct CrossedEdge {
     Index c, d;
 };
 
-/// Segments that were inserted within a part of the triangulation, and those that were not.
-struct ReachedSegments {
-    std::vector<SegmentPiece> pieces;
-    std::vector<Index> beyond;  ///< those that leave the part; their pieces inside may have been inserted
-    bool crossed = false;       ///< whether one crosses a constrained edge; then the others were not looked at
-};
-
-/// Inserts those of the segments, given by their indices, that stay within reach. Several calls may change parts of one
-/// triangulation at the same time (reach.hpp).
-ReachedSegments insert_segments_within(std::span<const Point> points, std::span<const Segment> segments,
-                                       std::span<const Index> which, const Reach& reach, Tris& tris,
-                                       std::vector<Index>& at_vertex);
-
 /// Inserts one segment into a triangulation whose vertex at infinity has the number `ghost`, and appends its pieces.
 /// Returns the first constrained edge that the segment crosses, if any; the pieces before and behind it are then in
 /// place.
