@@ -66,7 +66,8 @@ std::vector<WakePoint> trace_wake(const DualMesh& mesh, const NumberedTriangles&
         from_base ? base_crossing(mesh, start) : first_crossing(mesh, triangles.triangles, start);
     Point from = start.at, direction = start.direction;
     double way = 0;
-    while (next && way < length) {
+    // Round a vertex in a vortex the line would never get on.
+    for (std::size_t step = 0; next && way < length && step < triangles.triangles.size(); ++step) {
         const auto [a, b, last] = *next;
         const double right = cross(direction, mesh.points[a] - from), left = cross(direction, mesh.points[b] - from);
         const double share = left > right ? std::clamp(right / (right - left), 0.0, 1.0) : 0.5;
