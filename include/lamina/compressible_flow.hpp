@@ -7,8 +7,7 @@
 // Limits:
 //  1. On RAE 2822 at Mach 0.729 to 0.75 lift is within 1.3 % of that of the Reynolds-averaged equations (SA), drag within
 //     10 %, and shocks within 2 % of the chord. Without boundary layers shocks lie 6 to 9 % too far back.
-//  2. Where layers and flow do not become steady together, as in massively separated flow, and from Mach 1 on the flow is
-//     one without layers (CompressibleFlow::has_layers).
+//  2. From Mach 1 on, and where layers and flow do not settle together, as in massive separation, there are no layers.
 // Example:
 //     const Geometry section = make_geometry({naca_airfoil("0012", 200)});
 //     const CompressibleFlow flow = solve_compressible_flow(section, {.alpha_deg = 2.5, .reynolds = 6e6, .mach = 0.76});
@@ -62,9 +61,7 @@ struct CompressibleFlow {
     double alpha_deg = 0;  ///< its direction
     double chord = 1;      ///< the reference length of all coefficients, in units of the input
     double lift = 0;       ///< lift coefficient by the pressures on all walls
-    /// Drag coefficient: with boundary layers viscous_drag + wave_drag, without them that of the pressures on all walls,
-    /// which is wave drag and the mesh's error.
-    double drag = 0;
+    double drag = 0;  ///< with layers viscous_drag + wave_drag, else by the pressures: wave drag and the mesh's error
     bool has_layers = false;  ///< whether boundary layers displace the flow
     double viscous_drag = 0;  ///< drag coefficient of boundary layers and wakes, where there are any
     double wave_drag = 0;     ///< estimate of the drag coefficient of the shocks, where there are boundary layers

@@ -45,14 +45,12 @@ struct PlotOptions {
 LAMINA_EXPORT void validate(const PlotOptions& options);  ///< throws OptionError: an option out of range
 /// Draws the mesh: walls are red, with dots at vertices without cells. Throws UsageError for places unknown, too.
 LAMINA_EXPORT void plot_mesh(const Mesh& mesh, const std::filesystem::path& file, const PlotOptions& options = {});
-
 /// A number at each vertex of a mesh.
 struct PlotField {
     std::string name;              ///< beside the bar of colours
     std::vector<double> values;    ///< per vertex
     std::optional<double> line{};  ///< the value along which a line is drawn
 };
-
 /// Draws a field, linear in triangles and in the halves of quads, and the boundary of the mesh, in place of the cells. The
 /// colours span the numbers in view. Throws UsageError where the field does not fit the mesh.
 LAMINA_EXPORT void plot_field(const Mesh& mesh, const PlotField& field, const std::filesystem::path& file,
