@@ -6,7 +6,7 @@
 //  2. The flow does not depend on the number of threads.
 // Limits:
 //  1. On RAE 2822 at Mach 0.729 to 0.75 lift is within 1.3 % of that of the Reynolds-averaged equations (SA), drag within
-//     10 %, and shocks within 2 % of the chord. Without boundary layers shocks lie 6 to 9 % too far back.
+//     3 % (17 % behind strong shocks), shocks within 2 % of the chord. Without layers they lie 6 to 9 % too far back.
 //  2. From Mach 1 on, and where layers and flow do not settle together, as in massive separation, there are no layers.
 // Example:
 //     const Geometry section = make_geometry({naca_airfoil("0012", 200)});

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 #include <lamina/error.hpp>
@@ -14,6 +13,7 @@
 #include "flow/euler/euler.hpp"
 #include "flow/euler/wall_flow.hpp"
 #include "flow/potential.hpp"
+#include "pipeline/shock_sizes.hpp"
 
 namespace lamina::pipeline {
 
@@ -82,8 +82,7 @@ void add_drag(const EulerSolution& solution, CompressibleFlow& found) {
     found.viscous_drag = flow::euler::viscous_drag(solution);
     for (const CompressibleElement& element : found.elements)
         for (const CompressibleSide* side : {&element.upper, &element.lower})
-            for (const WallShock& shock : side->shocks)
-                found.wave_drag += flow::euler::wave_drag(*side, shock, found.mach, found.chord);
+            for (const WallShock& shock : side->shocks) found.wave_drag += wave_drag(found, *side, shock);
     found.drag = found.viscous_drag + found.wave_drag;
 }
 
@@ -98,7 +97,6 @@ CompressibleFlow flow_of(const MeshResult& made, const EulerMesh& mesh, const Eu
     flow.critical_pressure_coefficient = critical_pressure_coefficient(options.mach);
     flow.elements = wall_flows(mesh, solution, options);
     flow.has_layers = !solution.layers.empty();
-    if (flow.has_layers) add_drag(solution, flow);
     flow.iterations = solution.iterations;
     flow.residual = solution.residual;
     flow.converged = solution.converged;
@@ -113,6 +111,9 @@ CompressibleFlow flow_of(const MeshResult& made, const EulerMesh& mesh, const Eu
         flow.mach_numbers.push_back(mach_at(solution, v));
         flow.pressures.push_back(1.4 * solution.pressures[v]);
     }
+    flow.points = made.mesh.points;
+    flow.triangles = made.mesh.triangles;
+    if (flow.has_layers) add_drag(solution, flow);
     return flow;
 }
 
@@ -135,7 +136,7 @@ CompressibleFlow solve_compressible_flow(const Geometry& geometry, const FlowCon
     validate(conditions);
     if (!conditions.mach) throw OptionError("mach", "a compressible flow needs it");
     const ReferenceConditions reference = reference_conditions(conditions, reference_box(geometry));
-    MeshResult made = generate_mesh(geometry, options_of_mesh(conditions));
+    const MeshResult made = generate_mesh(geometry, options_of_mesh(conditions));
     const EulerMesh mesh = euler_mesh(made);
     // Layers hardly move the shocks of supersonic flow.
     const bool has_layers = *conditions.mach < 1 && !flow::is_laminar(reference);
@@ -144,10 +145,7 @@ CompressibleFlow solve_compressible_flow(const Geometry& geometry, const FlowCon
                                .chord = reference.chord,
                                .reynolds = has_layers ? reference.reynolds : std::nullopt};
     const EulerSolution solution = solve_euler(mesh, options);
-    CompressibleFlow flow = flow_of(made, mesh, solution, options);
-    flow.points = std::move(made.mesh.points);
-    flow.triangles = std::move(made.mesh.triangles);
-    return flow;
+    return flow_of(made, mesh, solution, options);
 }
 
 }  // namespace lamina

@@ -60,11 +60,28 @@ std::optional<Edge> edge_of(const CompressibleFlow& flow, const CompressibleSide
     return nearest;
 }
 
-bool is_faded(const CompressibleFlow& flow, Point p) {
+/// Returns the largest Mach number near a point of a front, which is that ahead of it.
+double mach_ahead(const CompressibleFlow& flow, Point p) {
     const double reach = ahead_distance * flow.chord;
+    double largest = 0;
     for (std::size_t v = 0; v < flow.points.size(); ++v)
-        if (flow.mach_numbers[v] >= fading_mach && squared_length(flow.points[v] - p) <= reach * reach) return false;
-    return true;
+        if (flow.mach_numbers[v] > largest && squared_length(flow.points[v] - p) <= reach * reach)
+            largest = flow.mach_numbers[v];
+    return largest;
+}
+
+/// Returns the entropy that a normal shock makes, over the gas constant.
+double entropy_rise(double mach) {
+    const double squared = mach * mach;
+    if (squared <= 1) return 0;
+    const double pressures = 1 + 7 * (squared - 1) / 6, densities = 6 * squared / (squared + 5);
+    return 2.5 * core::log_reproducible(pressures) - 3.5 * core::log_reproducible(densities);
+}
+
+/// Returns the flux of mass per area at a Mach number, over that of the free stream.
+double mass_flux(double mach, double free_stream) {
+    const double ratio = (1 + 0.2 * free_stream * free_stream) / (1 + 0.2 * mach * mach);
+    return mach / free_stream * ratio * ratio * ratio;
 }
 
 /// Adds the spacings of one side from a point of it on.
@@ -103,7 +120,7 @@ std::vector<Point> trace_front(const CompressibleFlow& flow, const CompressibleS
     while (front.size() < flow.triangles.size()) {
         const double share = (flow.mach_numbers[fast] - 1) / (flow.mach_numbers[fast] - flow.mach_numbers[slow]);
         const Point at = flow.points[fast] + share * (flow.points[slow] - flow.points[fast]);
-        if (!front.empty() && is_faded(flow, at)) break;
+        if (!front.empty() && mach_ahead(flow, at) < fading_mach) break;
         front.push_back(at);
         last = at_edges.beside(fast, slow, last);
         if (!last) break;
@@ -113,6 +130,18 @@ std::vector<Point> trace_front(const CompressibleFlow& flow, const CompressibleS
         (flow.mach_numbers[third] > 1 ? fast : slow) = third;
     }
     return front;
+}
+
+double wave_drag(const CompressibleFlow& flow, const CompressibleSide& side, const WallShock& shock) {
+    const double alpha = core::radians(flow.alpha_deg);
+    const Point stream{core::cos_reproducible(alpha), core::sin_reproducible(alpha)};
+    const std::vector<Point> front = trace_front(flow, side, shock);
+    double sum = 0;
+    for (std::size_t i = 1; i < front.size(); ++i) {
+        const double mach = mach_ahead(flow, midpoint(front[i - 1], front[i]));
+        sum += entropy_rise(mach) * mass_flux(mach, flow.mach) * std::abs(cross(stream, front[i] - front[i - 1]));
+    }
+    return sum / (0.7 * flow.mach * flow.mach * flow.chord);
 }
 
 ShockSizes sizes_at_shocks(const CompressibleFlow& flow, double fineness) {

@@ -22,6 +22,10 @@ struct ShockSizes {
 /// the line along which the Mach number is 1 behind it.
 std::vector<Point> trace_front(const CompressibleFlow& flow, const CompressibleSide& side, const WallShock& shock);
 
+/// Returns the drag coefficient of a shock: the entropy that normal shocks of the Mach numbers ahead of its front make
+/// in what passes the front. Source: K. Oswatitsch, Gas Dynamics (1956).
+double wave_drag(const CompressibleFlow& flow, const CompressibleSide& side, const WallShock& shock);
+
 /// Returns fine spacings from ahead of the first shock of each side to the trailing edge, and sources along the fronts.
 /// Both are divided by `fineness`, as CaseOptions::fineness says. Nothing where the flow is not steady.
 ///

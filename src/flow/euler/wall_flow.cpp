@@ -1,9 +1,7 @@
 #include "flow/euler/wall_flow.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
-#include <iterator>
 
 #include "core/reproducible_math.hpp"
 #include "flow/euler/gas.hpp"
@@ -114,26 +112,6 @@ double viscous_drag(const EulerSolution& solution) {
         drag += 2 * wall.wake_momentum * wall.wake_density *
                 core::pow_reproducible(wall.wake_speed, 0.5 * (wall.wake_shape + 5));
     return drag;
-}
-
-double wave_drag(const CompressibleSide& side, const WallShock& shock, double mach, double chord) {
-    constexpr double reach = 0.1,  // chords from the shock between which the mean curvature is taken
-        least_curvature = 0.1;     // where walls are flat the shock ends for other reasons
-    const auto nearest = [&](Point p) {
-        return std::min_element(side.points.begin(), side.points.end(), [&](const auto& a, const auto& b) {
-            return squared_length(a.at - p) < squared_length(b.at - p);
-        });
-    };
-    const auto foot = nearest(shock.at);
-    auto first = foot, last = foot;
-    while (first != side.points.begin() && distance(first->at, foot->at) < reach * chord) --first;
-    while (std::next(last) != side.points.end() && distance(last->at, foot->at) < reach * chord) ++last;
-    // The circle through three points.
-    const Point a = foot->at - first->at, b = last->at - foot->at, c = last->at - first->at;
-    const double curvature = 2 * std::abs(cross(a, b)) / (length(a) * length(b) * length(c)) * chord;
-    const double m = std::min(shock.mach_ahead, 2.0), speed = (1 + 0.2 * mach * mach) / mach, over = (m - 1) * (m - 1);
-    return 0.243 / std::max(curvature, least_curvature) * speed * speed * speed * over * over * (2 - m) /
-           (m * (1 + 0.2 * m * m));
 }
 
 }  // namespace lamina::flow::euler

@@ -34,8 +34,4 @@ std::vector<WallShock> find_shocks(const std::vector<CompressibleWallPoint>& sid
 /// Source: H. B. Squire, A. D. Young, ARC R&M 1838 (1937).
 double viscous_drag(const EulerSolution& solution);
 
-/// Returns an estimate of the drag coefficient of a shock, from the Mach number ahead of it and the curvature of the
-/// wall. Source: R. C. Lock, AGARD-R-723 (1985), paper 10.
-double wave_drag(const CompressibleSide& side, const WallShock& shock, double mach, double chord);
-
 }  // namespace lamina::flow::euler
