@@ -49,7 +49,7 @@ struct MeshCounts {
     std::size_t layer_triangles = 0;  ///< how many of the triangles belong to the layer
 };
 
-/// What a mesh has beside the cells and points of its parts.
+/// The data of a mesh that its parts do not hold: all but cells and points.
 struct MeshFrame {
     MeshCounts counts;                     ///< its size
     std::span<const Marker> markers;       ///< as Mesh::markers

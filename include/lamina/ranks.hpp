@@ -24,7 +24,7 @@ public:
     RankFailure(ExitCode code, const std::string& line) : Error(code, line) {}
 };
 
-/// What a process has handed over to be sent to others.
+/// The number and the size of the messages that a process has handed over for others.
 struct RankTraffic {
     std::size_t messages = 0;  ///< number of messages; one for each call of a collective function, and for each number
     std::size_t bytes = 0;     ///< bytes in them, without what the transport adds

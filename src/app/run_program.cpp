@@ -108,11 +108,13 @@ void run(const std::vector<std::string>& arguments, Ranks* ranks) {
 
 /// Makes a failure of this process known to all others. Returns the one that all end with.
 Failure shared_failure(Ranks& ranks, const Failure& failure) {
+    Failure known = failure;
     try {
         ranks.fail(failure.code, failure.line);
     } catch (const RankFailure& of_all) {
-        return {of_all.exit_code(), of_all.what()};
+        known = {of_all.exit_code(), of_all.what()};
     }
+    return known;
 }
 
 }  // namespace

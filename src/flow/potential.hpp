@@ -1,4 +1,4 @@
-// What other stages do with potential flow, and when it counts as a failure.
+// Functions of potential flow for other stages, and the limits beyond which it counts as a failure.
 #pragma once
 
 #include <lamina/export.hpp>

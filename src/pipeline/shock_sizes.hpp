@@ -10,7 +10,7 @@
 
 namespace lamina::pipeline {
 
-/// What the shocks ask for.
+/// The spacings and sizes that the shocks ask for.
 struct ShockSizes {
     std::vector<geometry::WallSpacing> spacings;
     std::vector<SizeSource> sources;

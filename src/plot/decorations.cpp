@@ -34,8 +34,6 @@ Card make_card(Canvas& canvas, const PictureView& view, double width, double hei
     return card;
 }
 
-}  // namespace
-
 void draw_axes(Canvas& canvas, const PictureView& view, double text_height) {
     const Box& area = view.area;
     // The picture has whole pixels, and may reach beyond the window.
@@ -93,6 +91,15 @@ void draw_color_bar(Canvas& canvas, const PictureView& view, const CellColors& c
             colors.logarithmic ? fmt::format("{:.1e}", std::pow(10, value)) : fmt::format("{:.3g}", value);
         canvas.write(at(from + room * i / numbers, 0.75 * text_height), text, 0.7 * text_height, ink, 0.5);
     }
+}
+
+}  // namespace
+
+void draw_decorations(Canvas& canvas, const PictureView& view, const CellColors& colors, const PlotOptions& options) {
+    const double text = text_height(options.width_px);
+    if (options.axes) draw_axes(canvas, view, text);
+    if (options.scale_bar) draw_scale_bar(canvas, view, text);
+    if (options.color_bar) draw_color_bar(canvas, view, colors, text);
 }
 
 }  // namespace lamina::plot

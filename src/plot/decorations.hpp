@@ -7,13 +7,9 @@
 
 namespace lamina::plot {
 
-/// Covers what lies beside the area of the view, and writes coordinates there.
-void draw_axes(Canvas& canvas, const PictureView& view, double text_height);
-
-/// Draws a bar of a round length in the lower right corner of the area.
-void draw_scale_bar(Canvas& canvas, const PictureView& view, double text_height);
-
-/// Draws the scale of the colours in the upper right corner of the area, where they stand for numbers.
-void draw_color_bar(Canvas& canvas, const PictureView& view, const CellColors& colors, double text_height);
+/// Draws the decorations that the options ask for: axes, which cover what lies beside the area of the view; a bar of a round
+/// length in the lower right corner of the area; and the scale of the colours in the upper right one, where they stand for
+/// numbers.
+void draw_decorations(Canvas& canvas, const PictureView& view, const CellColors& colors, const PlotOptions& options);
 
 }  // namespace lamina::plot

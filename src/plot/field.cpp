@@ -139,10 +139,7 @@ void draw(cairo_surface_t* surface, const Mesh& mesh, const PlotField& field, co
     if (field.line)
         for (const ValuedTriangle& t : triangles) stroke_line(canvas, t, *field.line, width);
     stroke_boundary(canvas, mesh, cells, width);
-    const double text = text_height(options.width_px);
-    if (options.axes) draw_axes(canvas, view, text);
-    if (options.scale_bar) draw_scale_bar(canvas, view, text);
-    if (options.color_bar) draw_color_bar(canvas, view, scale, text);
+    draw_decorations(canvas, view, scale, options);
 }
 
 }  // namespace

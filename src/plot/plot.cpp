@@ -153,10 +153,7 @@ void draw(cairo_surface_t* surface, const Mesh& mesh, const PictureView& view, c
     draw_drawn_cells(canvas, mesh, drawn, view, colored, widths.edge);
     draw_markers(canvas, mesh, widths);
     if (!has_cells) draw_dots(canvas, mesh, view, 1.2 * widths.wall);
-    const double text = text_height(options.width_px);
-    if (options.axes) draw_axes(canvas, view, text);
-    if (options.scale_bar) draw_scale_bar(canvas, view, text);
-    if (options.color_bar) draw_color_bar(canvas, view, colors, text);
+    draw_decorations(canvas, view, colors, options);
 }
 
 }  // namespace

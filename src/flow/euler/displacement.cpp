@@ -44,10 +44,15 @@ std::vector<double> smoothed(std::span<const Station> at, std::span<const double
     return x;
 }
 
-/// Returns the flux that stations displace after a step towards what their layers displace.
+/// Returns the flux that stations displace after a step towards what their layers displace, or after the first step, which
+/// takes all of that.
 std::vector<double> next_displaced(std::span<const Station> stations, std::span<const StationLayer> layers,
-                                   double length) {
+                                   double length, bool is_first) {
     std::vector<double> changes;
+    if (is_first) {
+        for (const StationLayer& layer : layers) changes.push_back(layer.displaced);
+        return changes;
+    }
     for (std::size_t i = 0; i < stations.size(); ++i) {
         const double most = largest_share * stations[i].displaced;
         changes.push_back(std::clamp(layers[i].displaced - stations[i].displaced, -most, most));
@@ -55,6 +60,19 @@ std::vector<double> next_displaced(std::span<const Station> stations, std::span<
     changes = smoothed(stations, changes, length);
     for (std::size_t i = 0; i < stations.size(); ++i) changes[i] += stations[i].displaced;
     return changes;
+}
+
+/// Returns the numbers of stations at places along them, up to the last station. `picked` are the places of the stations.
+std::vector<double> at_places(std::span<const double> places, std::span<const std::size_t> picked,
+                              std::span<const double> numbers) {
+    std::vector<double> along;
+    std::size_t j = 0;  // the station before
+    for (std::size_t i = picked[0]; i <= picked.back(); ++i) {
+        if (i > picked[j + 1]) ++j;
+        const double begin = places[picked[j]], share = (places[i] - begin) / (places[picked[j + 1]] - begin);
+        along.push_back(numbers[j] + share * (numbers[j + 1] - numbers[j]));
+    }
+    return along;
 }
 
 Station station_at(double s, const Four& state, double displaced) {
@@ -152,18 +170,14 @@ void DisplacementLayers::update(Element& e, std::span<const Four> states) {
     e.sides = std::move(sides);
     double end = 0;
     for (const Side& side : e.sides) {
-        std::vector<double> displaced(side.stations.size());
-        if (is_first_)
-            std::transform(side.layers.begin(), side.layers.end(), displaced.begin(),
-                           [](const StationLayer& l) { return l.displaced; });
-        else
-            displaced = next_displaced(side.stations, side.layers, smoothing_length * e.extent);
+        const std::vector<double> displaced =
+            next_displaced(side.stations, side.layers, smoothing_length * e.extent, is_first_);
         end += displaced.back();
         enter_side(e, side, displaced);
     }
     std::vector<double> displaced = lead_wake(e, wake);
     displaced[0] = end;
-    enter_wake(e, wake, displaced);
+    enter_wake(e, displaced);
     turn_wake(e, wake, states);
 }
 
@@ -251,38 +265,27 @@ std::vector<double> DisplacementLayers::lead_wake(Element& e, std::vector<Statio
                            .layers = 2,
                            .answer_length = is_first_ ? 0 : smoothing_length * e.extent,
                            .first_speed = 0.5 * (u.speed + l.speed)});
-    if (!is_first_) return next_displaced(stations, e.wake_layers, smoothing_length * e.extent);
-    std::vector<double> displaced;
-    for (const StationLayer& layer : e.wake_layers) displaced.push_back(layer.displaced);
-    return displaced;
+    return next_displaced(stations, e.wake_layers, smoothing_length * e.extent, is_first_);
 }
 
 void DisplacementLayers::enter_side(Element& e, const Side& side, std::span<const double> displaced) {
-    std::vector<double> along(side.places.size());
-    std::size_t j = 0;
-    for (std::size_t i = 0; i < along.size(); ++i) {
-        if (i <= side.picked[0]) {  // laminar layers displace little
-            along[i] = displaced[0] * side.s[i] / side.s[side.picked[0]];
-            continue;
-        }
-        if (i > side.picked[j + 1]) ++j;
-        const double share = (side.s[i] - side.stations[j].s) / (side.stations[j + 1].s - side.stations[j].s);
-        along[i] = displaced[j] + share * (displaced[j + 1] - displaced[j]);
-    }
+    std::vector<double> along;
+    for (std::size_t i = 0; i < side.picked[0]; ++i)  // laminar layers displace little
+        along.push_back(displaced[0] * side.s[i] / side.s[side.picked[0]]);
+    const std::vector<double> turbulent = at_places(side.s, side.picked, displaced);
+    along.insert(along.end(), turbulent.begin(), turbulent.end());
     for (std::size_t i = 0; i < along.size(); ++i) {
         e.displaced[side.places[i]] = along[i];
         sources_[vertex(e, side.places[i])] += entering(along, i, true);
     }
 }
 
-void DisplacementLayers::enter_wake(Element& e, std::span<const Station> stations, std::span<const double> displaced) {
-    std::vector<double> along{displaced[0]};
-    std::size_t j = 0;
-    for (std::size_t k = 0; k <= e.wake_picked.back(); ++k) {
-        if (k > e.wake_picked[j]) ++j;
-        const double share = (e.wake_s[k] - stations[j].s) / (stations[j + 1].s - stations[j].s);
-        along.push_back(displaced[j] + share * (displaced[j + 1] - displaced[j]));
-    }
+void DisplacementLayers::enter_wake(Element& e, std::span<const double> displaced) {
+    std::vector<double> places{0};  // the trailing edge, and the points
+    places.insert(places.end(), e.wake_s.begin(), e.wake_s.end());
+    std::vector<std::size_t> picked{0};
+    for (const std::size_t k : e.wake_picked) picked.push_back(k + 1);
+    const std::vector<double> along = at_places(places, picked, displaced);
     for (const std::uint32_t corner : {vertex(e, 0), vertex(e, e.sides_end)})
         sources_[corner] += 0.5 * entering(along, 0, false);
     for (std::size_t k = 0; k <= e.wake_picked.back(); ++k) {
@@ -317,7 +320,7 @@ void DisplacementLayers::turn_wake(Element& e, std::span<const Station> stations
 
 void DisplacementLayers::add_fluxes(std::span<const Four> states, std::vector<Four>& sums) const {
     for (std::size_t v = 0; v < sums.size(); ++v) {
-        if (sources_[v] == 0) continue;
+        if (sources_[v] == 0 && forces_[v] == Point{}) continue;
         // The gas enters with the velocity and the total enthalpy that are there.
         const Four& state = states[v];
         const Point force = forces_[v];

@@ -66,7 +66,7 @@ private:
     void update(Element& element, std::span<const Four> states);
     std::vector<double> lead_wake(Element& element, std::vector<Station>& stations) const;
     void enter_side(Element& element, const Side& side, std::span<const double> displaced);
-    void enter_wake(Element& element, std::span<const Station> stations, std::span<const double> displaced);
+    void enter_wake(Element& element, std::span<const double> displaced);
     void turn_wake(Element& element, std::span<const Station> stations, std::span<const Four> states);
     std::uint32_t vertex(const Element& element, std::size_t place) const {
         return element.outline[place % element.outline.size()];

@@ -17,7 +17,7 @@ struct DualEdge {
     Point normal;        ///< from i to j, as long as the face
 };
 
-/// What happens at an edge of the boundary.
+/// The condition at an edge of the boundary.
 enum class BoundaryKind : std::uint8_t {
     wall,  ///< no gas passes
     base,  ///< the base of a blunt trailing edge, out of which gas flows

@@ -10,7 +10,7 @@
 
 namespace lamina::flow::euler {
 
-/// What comes in from far away.
+/// The flow that comes in from far away.
 struct FarFlow {
     Four free_stream{};  ///< its state
     double lift = 0;     ///< lift coefficient, based on the unit of length

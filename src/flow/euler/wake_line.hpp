@@ -28,7 +28,7 @@ struct NumberedTriangles {
 
 NumberedTriangles numbered_triangles(const DualMesh& mesh, std::span<const Triangle> triangles);
 
-/// Where and how a line leaves.
+/// The point and the direction in which the line of a wake leaves its element.
 struct WakeStart {
     std::vector<std::uint32_t>
         corners;      ///< the trailing edge, or the vertices of the base from the lower to the upper side

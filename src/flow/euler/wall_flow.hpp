@@ -1,4 +1,4 @@
-// What the flow does along walls: sides, pressures, shocks.
+// The flow along walls: sides, pressures, shocks.
 #pragma once
 
 #include <cstddef>
