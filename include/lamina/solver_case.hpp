@@ -25,8 +25,8 @@ namespace lamina {
 
 /// The solvers that cases are written for.
 enum class FlowSolver {
-    openfoam,  ///< OpenFOAM, steady: simpleFoam, or rhoSimpleFoam (SolverCaseOptions::compressible)
-    su2,       ///< SU2_CFD: compressible, steady
+    openfoam,  ///< OpenFOAM: simpleFoam, rhoSimpleFoam (SolverCaseOptions::compressible), pimpleFoam (unsteady)
+    su2,       ///< SU2_CFD: compressible
 };
 
 /// Turbulence models of cases.
@@ -43,9 +43,13 @@ struct SolverCaseOptions {
     bool overwrite = false;  ///< whether files of the folder that have the name of a file of the case are replaced
     /// Whether OpenFOAM's case is that of a gas, at ReferenceConditions::mach, above 0 and below 1. SU2's always is.
     bool compressible = false;
+    /// Whether the case is solved in time, for flow that sheds vortices: by pimpleFoam, or in dual time steps of SU2. In one
+    /// step the free stream crosses one edge of a triangle of the wake. OpenFOAM's is for incompressible flow.
+    bool unsteady = false;
 };
 
-/// Throws OptionError where no case of the solver is for a flow of this Mach number, which may be missing.
+/// Throws OptionError where no case of the solver is for a flow of this Mach number, which may be missing, or for one in
+/// time.
 LAMINA_EXPORT void validate(FlowSolver solver, const SolverCaseOptions& options, const std::optional<double>& mach);
 /// Returns the solvers by their names on the command line: "openfoam", "su2".
 LAMINA_EXPORT const std::vector<std::pair<std::string, FlowSolver>>& flow_solvers();

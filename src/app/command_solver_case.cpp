@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include <lamina/error.hpp>
 #include <lamina/solver_case.hpp>
 
@@ -24,7 +26,7 @@ namespace {
 
 struct CaseArguments {
     std::string solver, folder, turbulence;
-    bool overwrite = false;
+    bool overwrite = false, unsteady = false;
     GivenOptions mesh;
     std::shared_ptr<FamilyArguments> family;
 };
@@ -92,6 +94,7 @@ void make_case(const CaseArguments& arguments) {
     SolverCaseOptions options;
     set_by_name(option_table<SolverCaseOptions>(), "turbulence", arguments.turbulence, options);
     options.overwrite = arguments.overwrite;
+    options.unsteady = arguments.unsteady;
     MeshCase mesh_case = case_of_command_line(arguments.mesh);
     if (arguments.folder.empty()) throw UsageError("no output: give -o DIR");
     mesh_case.outputs = {arguments.folder};
@@ -120,7 +123,8 @@ void add_case_command(CLI::App& app) {
     auto arguments = std::make_shared<CaseArguments>();
     command
         ->add_option("SOLVER", arguments->solver,
-                     "openfoam: simpleFoam, or rhoSimpleFoam with --mach, run by DIR/Allrun; su2: SU2_CFD, run by "
+                     "openfoam: simpleFoam, or rhoSimpleFoam with --mach, or pimpleFoam with --unsteady, run by "
+                     "DIR/Allrun; su2: SU2_CFD, run by "
                      "DIR/Allrun")
         ->required()
         ->type_name("openfoam|su2");
@@ -130,10 +134,12 @@ void add_case_command(CLI::App& app) {
         ->type_name("DIR")
         ->group("Case");
     add_table_option(*command, option_table<SolverCaseOptions>(), "turbulence", arguments->turbulence)->group("Case");
-    command
-        ->add_flag("--overwrite", arguments->overwrite,
-                   help_with_range(find_row(option_table<SolverCaseOptions>(), "overwrite")))
-        ->group("Case");
+    const auto add_flag = [&](const char* name, bool& given) {
+        const auto& row = find_row(option_table<SolverCaseOptions>(), name);
+        command->add_flag(fmt::format("--{}", name), given, help_with_range(row))->group("Case");
+    };
+    add_flag("unsteady", arguments->unsteady);
+    add_flag("overwrite", arguments->overwrite);
     arguments->family = add_family_options(*command, 1);
     for (const char* const name : {"--ratio", "--base-level", "--table"})
         command->get_option(name)->needs(command->get_option("--levels"));

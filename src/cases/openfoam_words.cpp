@@ -45,7 +45,7 @@ std::string symmetry_patches(const std::vector<std::string>& names) {
 
 /// Adds what says which solver it is, and what a gas needs.
 void add_medium(const CaseFlow& flow, Words& words) {
-    words["APPLICATION"] = flow.compressible ? "rhoSimpleFoam" : "simpleFoam";
+    words["APPLICATION"] = flow.time ? "pimpleFoam" : flow.compressible ? "rhoSimpleFoam" : "simpleFoam";
     words["MACH"] = number(flow.compressible ? flow.mach : 0);
     words["TRANSONIC"] = flow.compressible && flow.mach > largest_low_mach ? "yes" : "no";
     if (!flow.compressible) {
@@ -65,6 +65,43 @@ void add_medium(const CaseFlow& flow, Words& words) {
     words["HEAT_CAPACITY"] = number(heat_ratio / (heat_ratio - 1) * per_mass);
     words["ALPHA_T_WALL"] =
         condition(flow.wall_functions ? "compressible::alphatWallFunction" : "fixedValue", "uniform 0");
+}
+
+/// Adds what makes a case steady, or one in time.
+void add_time(const CaseFlow& flow, Words& words) {
+    const bool unsteady = flow.time.has_value();
+    const TimeSteps time = flow.time.value_or(TimeSteps{});
+    words["TIME_SCHEME"] =
+        unsteady ? "#include        \"march\"\n    default         $timeScheme;" : "default         steadyState;";
+    words["TIME_STEP"] = unsteady ? number(flow.chord / flow.velocity / time.per_time) : "1";
+    words["STEPS"] = fmt::format("{}", time.per_time);
+    words["TIMES"] = fmt::format("{}", time.times);
+    words["TIME_AXIS"] = unsteady ? "time" : "iteration";
+    words["WRITE_CONTROL"] = unsteady ? "runTime" : "timeStep";
+    words["SHEAR_CONTROL"] = unsteady ? "timeStep" : "writeTime";
+    words["WALL_FIELDS"] = unsteady ? "pMean wallShearStressMean" : "p wallShearStress";
+    constexpr double across = 0.3;  // share of the speed that a gust has
+    const Point gust = flow.velocity * (flow.direction + across * Point{-flow.direction.y, flow.direction.x});
+    words["GUST"] = vector(gust.x, gust.y);
+    // The moment point is a quarter of the chord behind the nose.
+    words["MIDDLE_X"] = number(flow.moment_point.x + flow.chord / 4);
+    words["MIDDLE_Y"] = number(flow.moment_point.y);
+    words["AVERAGE"] = unsteady ? R"(    average
+    {
+        type            fieldAverage;
+        libs            ("libfieldFunctionObjects.so");
+        #include        "march"
+        timeStart       $averageFrom;
+        writeControl    writeTime;
+        fields
+        (
+            U { mean on; prime2Mean on; base time; }
+            p { mean on; prime2Mean on; base time; }
+            wallShearStress { mean on; prime2Mean off; base time; }
+        );
+    }
+)"
+                                : "";
 }
 
 /// Adds what the turbulence models need: conditions upstream and at walls.
@@ -121,6 +158,7 @@ Words openfoam_words(const CaseFlow& flow) {
     words["VORTEX_Y"] = number(flow.moment_point.y);
     words["MAX_ITERATIONS"] = "8000";
     words["MOMENT_POINT"] = vector(flow.moment_point.x, flow.moment_point.y);
+    add_time(flow, words);
     add_medium(flow, words);
     add_turbulence(flow, words);
     return words;

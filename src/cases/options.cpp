@@ -17,6 +17,8 @@ OptionTable<SolverCaseOptions> option_rows() {
                  member_at(&SolverCaseOptions::turbulence));
     table.flag("overwrite", "replace files of the folder that have the names of files of the case", true,
                member_at(&SolverCaseOptions::overwrite));
+    table.flag("unsteady", "solve in time, for flow that sheds vortices: behind a bluff body or a stalled section",
+               true, member_at(&SolverCaseOptions::unsteady));
     return table.take();
 }
 template LAMINA_EXPORT const OptionTable<SolverCaseOptions>& option_table();

@@ -55,18 +55,44 @@ TurbulenceModel turbulence_of(const SolverCaseOptions& options, bool is_laminar)
     return options.turbulence.value_or(is_laminar ? TurbulenceModel::laminar : TurbulenceModel::spalart_allmaras);
 }
 
+/// Files of cases in time have this behind their name where steady cases have another one of that name.
+constexpr std::string_view in_time = ".unsteady";
+
+/// Returns whether a file is one of cases in time, or of steady ones, as it is asked for.
+bool suits_time(std::string_view name, bool unsteady) {
+    constexpr std::array alone_in_time{"system/march", "system/setFieldsDict", "unsteady.awk"};
+    constexpr std::array alone_steady{"Allrun",
+                                      "settled.awk",
+                                      "summary.awk",
+                                      "system/fvSolution",
+                                      "system/medium",
+                                      "system/medium.first",
+                                      "system/medium.incompressible"};
+    const auto among = [&](const auto& names) { return std::find(names.begin(), names.end(), name) != names.end(); };
+    if (name.ends_with(in_time) || among(alone_in_time)) return unsteady;
+    return !unsteady || !among(alone_steady);
+}
+
+/// Returns the name that a template's file has in the case.
+fs::path name_in_case(const Template& file) {
+    std::string_view name = file.name;
+    if (name.ends_with(in_time)) name.remove_suffix(in_time.size());
+    return name;
+}
+
 /// Returns whether the solver's case has this file: fields of other turbulence models are left out, and without
 /// compressibility what describes a gas.
-bool belongs_to_case(const Template& file, const SolverEntry& entry, TurbulenceModel turbulence, bool compressible) {
+bool belongs_to_case(const Template& file, const SolverEntry& entry, TurbulenceModel turbulence,
+                     const SolverCaseOptions& options) {
     const std::string_view name = file.name;
-    if (file.solver != entry.name && file.solver != "common") return false;
+    if ((file.solver != entry.name && file.solver != "common") || !suits_time(name, options.unsteady)) return false;
     constexpr std::array of_gas{"0/T",
                                 "0/alphat",
                                 "constant/thermophysicalProperties",
                                 "system/compress.awk",
                                 "system/fvOptions.gas",
                                 "system/medium.compressible"};
-    if (std::find(of_gas.begin(), of_gas.end(), name) != of_gas.end()) return compressible;
+    if (std::find(of_gas.begin(), of_gas.end(), name) != of_gas.end()) return options.compressible;
     if (name == "0/nut") return turbulence != TurbulenceModel::laminar;
     if (name == "0/nuTilda") return turbulence == TurbulenceModel::spalart_allmaras;
     if (name == "0/k" || name == "0/omega") return turbulence == TurbulenceModel::k_omega_sst;
@@ -101,6 +127,26 @@ Point foremost_wall_vertex(const Mesh& mesh) {
     return foremost;
 }
 
+/// Returns the steps of a case in time: in one of them the stream crosses no more than one edge as long as the shortest
+/// quarter of the triangles outside the layer has them, each by its shortest edge. These are the triangles of the wake.
+TimeSteps steps_in_time(const Mesh& mesh, const CaseFlow& flow) {
+    constexpr double courant_number = 1, quarter = 0.25;
+    std::vector<double> edges;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        if (!mesh.region.empty() && mesh.region[i] == Region::layer) continue;
+        const auto& v = mesh.triangles[i].v;
+        const Point a = mesh.points[v[0].index()], b = mesh.points[v[1].index()], c = mesh.points[v[2].index()];
+        edges.push_back(std::min({distance(a, b), distance(b, c), distance(c, a)}));
+    }
+    if (edges.empty()) throw MeshError("a case in time needs a mesh with triangles outside the layer");
+    const auto at = edges.begin() + static_cast<std::ptrdiff_t>(quarter * static_cast<double>(edges.size()));
+    std::nth_element(edges.begin(), at, edges.end());
+    // Shedding grows slowly in laminar flow.
+    constexpr int laminar_times = 100, times = 20;
+    return {.per_time = static_cast<int>(std::ceil(flow.chord / (courant_number * *at))),
+            .times = flow.turbulence == TurbulenceModel::laminar ? laminar_times : times};
+}
+
 CaseFlow case_flow(FlowSolver solver, const Mesh& mesh, const SolverConditions& conditions,
                    const SolverCaseOptions& options) {
     const auto& [chord, alpha_deg, reynolds, mach] = conditions.reference;
@@ -123,6 +169,7 @@ CaseFlow case_flow(FlowSolver solver, const Mesh& mesh, const SolverConditions& 
     flow.symmetries = names_of_markers(mesh, MarkerKind::symmetry);
     if (flow.walls.empty()) throw MeshError("a case needs a mesh with a marker that is a wall");
     if (flow.far_fields.empty()) throw MeshError("a case needs a mesh with a marker that is a far field");
+    if (options.unsteady) flow.time = steps_in_time(mesh, flow);
     flow.moment_point = conditions.moment_point.value_or(foremost_wall_vertex(mesh) + Point{0.25 * chord, 0});
     return flow;
 }
@@ -150,8 +197,8 @@ std::vector<SolverCaseFile> solver_case_files(FlowSolver solver, const Mesh& mes
     const Words words = entry.words(flow);
     std::vector<SolverCaseFile> files;
     for (const Template& file : templates())
-        if (belongs_to_case(file, entry, flow.turbulence, options.compressible))
-            files.push_back({fs::path(file.name), fill_in(file.text, words), file.text.starts_with("#!")});
+        if (belongs_to_case(file, entry, flow.turbulence, options))
+            files.push_back({name_in_case(file), fill_in(file.text, words), file.text.starts_with("#!")});
     return files;
 }
 
@@ -172,6 +219,8 @@ const std::vector<std::pair<std::string, FlowSolver>>& flow_solvers() {
 
 void validate(FlowSolver solver, const SolverCaseOptions& options, const std::optional<double>& mach) {
     if (!options.compressible) return;
+    if (solver == FlowSolver::openfoam && options.unsteady)
+        throw OptionError("unsteady", "a case of OpenFOAM in time is incompressible: leave out mach, or take su2");
     if (!mach) throw OptionError("mach", "a compressible flow needs it");
     if (solver == FlowSolver::openfoam && !(*mach > 0 && *mach < 1))
         throw OptionError(
@@ -199,8 +248,8 @@ std::vector<fs::path> solver_case_outputs(FlowSolver solver, const fs::path& fol
     const SolverEntry& entry = entry_of(solver);
     std::vector<fs::path> outputs = output_files(mesh_file(entry, folder), {.format = entry.format});
     for (const Template& file : templates())
-        if (belongs_to_case(file, entry, turbulence_of(options, false), options.compressible))
-            outputs.push_back(folder / fs::path(file.name));
+        if (belongs_to_case(file, entry, turbulence_of(options, false), options))
+            outputs.push_back(folder / name_in_case(file));
     return outputs;
 }
 

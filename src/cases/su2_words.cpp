@@ -18,6 +18,40 @@ std::string walls_with(const CaseFlow& flow, std::string_view value) {
     return fmt::format("{}", fmt::join(pairs, ", "));
 }
 
+/// Adds what makes a case steady, or one in time.
+void add_time(const CaseFlow& flow, Words& words) {
+    words["TIME_COLUMN"] = flow.time ? "TIME_DOMAIN, " : "";
+    words["TIME_ITERATION"] = flow.time ? "TIME_ITER, " : "";
+    words["OUTPUT_FREQUENCY"] = flow.time ? "1000000" : "1000";
+    if (!flow.time) {
+        words["RUN_COMMENT"] =
+            "% Allrun changes AOA, ITER and RESTART_SOL on the way to a large angle of attack. To go on with an "
+            "earlier run, "
+            "rename\n% restart_flow.dat to solution_flow.dat, set RESTART_SOL= YES, and run SU2_CFD case.cfg.";
+        words["END_OPTIONS"] = fmt::format(
+            "% ---- The end: drag and lift that have not changed over 200 iterations. SU2 counts changes of drag as "
+            "shares of "
+            "0.1.\nITER= {}\nCONV_FIELD= ( DRAG, LIFT )\nCONV_STARTITER= 250\nCONV_CAUCHY_ELEMS= "
+            "200\nCONV_CAUCHY_EPS= 2E-7",
+            words["MAX_ITERATIONS"]);
+        return;
+    }
+    // SU2's speed of sound in metres per second, of air at 300 kelvin. Lengths count as metres.
+    const double sound_speed = std::sqrt(1.4 * 287.058 * 300);
+    words["RUN_COMMENT"] = "% Allrun changes TIME_ITER, and starts with a steady run.";
+    words["STEPS"] = fmt::format("{}", flow.time->per_time);
+    // The moment point is a quarter of the chord behind the nose.
+    words["MIDDLE_X"] = fmt::format("{}", flow.moment_point.x + flow.chord / 4);
+    words["MIDDLE_Y"] = fmt::format("{}", flow.moment_point.y);
+    words["TIMES"] = fmt::format("{}", flow.time->times);
+    words["END_OPTIONS"] = fmt::format(
+        "% ---- Steps in time, each of inner iterations until the residual of the density has fallen to a hundredth\n"
+        "TIME_DOMAIN= YES\nTIME_MARCHING= DUAL_TIME_STEPPING-2ND_ORDER\nTIME_STEP= {}\nMAX_TIME= 1E10\n"
+        "TIME_ITER= 2\nRESTART_ITER= 2\nREAD_BINARY_RESTART= NO\nINNER_ITER= 20\nCONV_FIELD= REL_RMS_DENSITY\n"
+        "CONV_RESIDUAL_MINVAL= -2\nCONV_STARTITER= 2",
+        flow.chord / (flow.mach * sound_speed * flow.time->per_time));
+}
+
 }  // namespace
 
 Words su2_words(const CaseFlow& flow) {
@@ -55,6 +89,7 @@ Words su2_words(const CaseFlow& flow) {
     constexpr double step_of_angles = 2.5;
     words["ANGLES"] = fmt::format("{}", fmt::join(angles_to(flow.alpha_deg, step_of_angles), " "));
     words["MAX_ITERATIONS"] = "5000";
+    add_time(flow, words);
     words["WALL_NAMES"] = fmt::format("{}", fmt::join(flow.walls, " "));
     words["WALLS"] = fmt::format("{}", fmt::join(flow.walls, ", "));
     words["HEAT_FLUXES"] = walls_with(flow, "0.0");

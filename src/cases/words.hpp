@@ -1,6 +1,7 @@
 // The files of a case have names between @ signs; this header declares the words that take their place.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,12 @@
 
 namespace lamina::cases {
 
+/// Steps of a case in time.
+struct TimeSteps {
+    int per_time = 1;  ///< steps in a convective time, chord / velocity
+    int times = 1;     ///< convective times to run
+};
+
 /// The flow of a case with nothing left open.
 struct CaseFlow {
     double chord = 1;
@@ -19,8 +26,9 @@ struct CaseFlow {
     double mach = 0;
     bool compressible = false;  ///< SolverCaseOptions::compressible
     double velocity = 1;
-    double viscosity = 0;  ///< kinematic: velocity x chord / Reynolds number
-    Point direction;       ///< of the free stream, of length 1
+    std::optional<TimeSteps> time{};  ///< empty: the case is steady
+    double viscosity = 0;             ///< kinematic: velocity x chord / Reynolds number
+    Point direction;                  ///< of the free stream, of length 1
     Point moment_point;
     bool wall_functions = false;
     TurbulenceModel turbulence = TurbulenceModel::spalart_allmaras;

@@ -310,6 +310,44 @@ TEST(SolverCaseCommand, AllrunTellsSteadyStatesFromCyclesAndDrift) {
     EXPECT_EQ(settled(folder, falling), "steady in the mean\n");
 }
 
+/// Returns result.json that unsteady.awk writes of these steps: time, lift, drag and moment.
+nlohmann::json result_in_time(const TemporaryFolder& folder, const std::vector<std::array<double, 4>>& steps) {
+    std::string text;
+    for (const auto& step : steps) text += fmt::format("{}\n", fmt::join(step, " "));
+    std::ofstream(folder / "forces") << text;
+    folder.write("walls", "airfoil 0.75 0.5\n");
+    const std::string command = "cd '" + folder.path().string() + "' && awk -v times=20 -v steps=50 -f '" +
+                                LAMINA_SOURCE_DIR + "/share/cases/common/unsteady.awk' forces walls >said";
+    if (std::system(command.c_str()) != 0) return {};
+    return nlohmann::json::parse(folder.read("result.json"));
+}
+
+TEST(SolverCaseCommand, RunsInTimeAreSummedUp) {
+    const TemporaryFolder folder;
+    const double pi = std::acos(-1);
+    // Lift swings with a frequency of 0.165 and has noise, and drag with twice of it; the first slowly rises.
+    std::vector<std::array<double, 4>> steps;
+    for (int i = 500; i <= 1500; ++i) {
+        const double t = i / 50.0, phase = 2 * pi * 0.165 * t;
+        steps.push_back({t, 0.1 + 0.3 * std::sin(phase) + 0.01 * (i % 2), 1.3 + 0.01 * std::cos(2 * phase), -0.1});
+    }
+    const auto result = result_in_time(folder, steps);
+    EXPECT_NEAR(result["Strouhal"], 0.165, 0.0005);
+    EXPECT_EQ(result["periods"], 2);
+    EXPECT_NEAR(result["CL"], 0.105, 0.03);  // of whole periods and a part
+    EXPECT_NEAR(result["CD"], 1.3, 0.001);
+    EXPECT_NEAR(result["CM"], -0.1, 1e-9);
+    EXPECT_NEAR(result["deviation_CL"], 0.3 / std::sqrt(2), 0.01);
+    EXPECT_NEAR(result["range_CD"][0], 1.29, 1e-4);
+    EXPECT_NEAR(result["range_CD"][1], 1.31, 1e-4);
+    EXPECT_EQ(result["y_plus"]["airfoil"]["largest"], 0.75);
+    // Flow that does not swing has no frequency.
+    for (auto& step : steps) step = {step[0], 0.5, 0.02, 0};
+    EXPECT_TRUE(result_in_time(folder, steps)["Strouhal"].is_null());
+    steps[300][1] = NAN;
+    EXPECT_TRUE(result_in_time(folder, steps).is_null());
+}
+
 /// Runs the case of SU2 with a program in place of SU2_CFD whose lift is a tenth of the angle plus a fading part, and
 /// whose y+ is the number of the vertex. Returns the exit code of Allrun.
 int run_with_stand_in(const TemporaryFolder& folder, const std::string& amplitude) {
@@ -362,6 +400,15 @@ TEST(SolverCaseCommand, Su2IsRunThroughItsAnglesAndSummedUp) {
     EXPECT_EQ(result["steady_in_the_mean"], false);
 }
 
+/// Returns the points of a circle of diameter 1.
+std::string circle_of(int points) {
+    std::string circle;
+    for (int i = 0; i < points; ++i)
+        circle += fmt::format("{} {}\n", 0.5 + 0.5 * std::cos(2 * std::acos(-1) * i / points),
+                              0.5 * std::sin(2 * std::acos(-1) * i / points));
+    return circle;
+}
+
 TEST(SolverCaseCommand, WarnsOfSpeedsAndOfFlowThatSeparates) {
     const TemporaryFolder folder;
     folder.write("diamond.dat", "1 0\n0.5 0.05\n0 0\n0.5 -0.05\n1 0\n");
@@ -376,11 +423,7 @@ TEST(SolverCaseCommand, WarnsOfSpeedsAndOfFlowThatSeparates) {
     EXPECT_NE(run({"case", "su2", "diamond.dat", "--mach", "2", "-o", "a"}).find("Mach number 2"), std::string::npos);
     EXPECT_NE(run({"case", "su2", "naca:0012", "--mach", "0.7", "-o", "b"}).find("Mach number 0.7"), std::string::npos);
     EXPECT_EQ(run({"case", "su2", "naca:0012", "--alpha", "15", "-o", "c"}).find("Mach"), std::string::npos);
-    std::string circle;
-    for (int i = 0; i <= 120; ++i)
-        circle += fmt::format("{} {}\n", 0.5 + 0.5 * std::cos(std::acos(-1) * i / 60),
-                              0.5 * std::sin(std::acos(-1) * i / 60));
-    folder.write("circle.dat", circle);
+    folder.write("circle.dat", circle_of(120));
     for (const Words& stalled :
          {Words{"naca:0012", "--alpha", "30"}, Words{"naca:0012", "--alpha", "-30"}, Words{"circle.dat"}}) {
         Words words = stalled;
@@ -433,6 +476,35 @@ TEST(SolverCaseCommand, OpenFoamRunsTheCase) {
                 << field << " of " << fmt::format("{}", fmt::join(more, " "));
         }
     }
+}
+
+TEST(SolverCaseCommand, OpenFoamRunsTheCaseInTime) {
+    if (std::system("command -v pimpleFoam >/dev/null 2>&1") != 0)
+        GTEST_SKIP() << "pimpleFoam is not in PATH: nothing says here that OpenFOAM runs the case";
+    const TemporaryFolder folder;
+    folder.write("circle.dat", circle_of(40));
+    const ProgramRun made =
+        run_lamina(folder, {"case", "openfoam", "circle.dat", "-o", "c", "--unsteady", "--reynolds", "100", "--quiet",
+                            "--use-flow", "no", "--no-layers", "--gradation", "0.3"});
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    const auto run = [&](const char* variables) {
+        const std::string command =
+            fmt::format("{} '{}' > '{}' 2>&1", variables, (folder / "c/Allrun").string(), (folder / "said").string());
+        return WEXITSTATUS(std::system(command.c_str()));
+    };
+    EXPECT_EQ(run("TIMES=9"), 1) << "too few";
+    ASSERT_EQ(run("TIMES=10 FIELDS=4"), 0) << folder.read("said");
+    const auto result = nlohmann::json::parse(folder.read("c/result.json"));
+    EXPECT_EQ(result["convective_times"], 10);
+    EXPECT_GT(result["CD"], 1);
+    EXPECT_LT(result["CD"], 4);
+    for (const char* file : {"c/6/U", "c/10/U", "c/10/UMean"}) EXPECT_TRUE(fs::exists(folder / file)) << file;
+    EXPECT_EQ(folder.read("c/walls.csv").find("nan"), std::string::npos);
+    // Results are not written over, and Allclean leaves the case as it was.
+    EXPECT_EQ(run("TIMES=10"), 1);
+    EXPECT_EQ(std::system(("'" + (folder / "c/Allclean").string() + "'").c_str()), 0);
+    EXPECT_FALSE(fs::exists(folder / "c/10"));
+    EXPECT_TRUE(fs::exists(folder / "c/0/U"));
 }
 
 }  // namespace

@@ -40,10 +40,14 @@ TEST(SolverCase, NoPlaceholderIsLeft) {
                 SolverConditions conditions = some_conditions();
                 conditions.wall_functions = special;
                 conditions.reference.mach = 0.2;
-                for (const cases::SolverCaseFile& file : cases::solver_case_files(
-                         solver, case_mesh(), conditions, {.turbulence = turbulence, .compressible = special})) {
-                    EXPECT_FALSE(std::regex_search(file.text, placeholder)) << name << " " << file.name;
-                    EXPECT_EQ(file.executable, file.text.starts_with("#!")) << file.name;
+                for (const bool unsteady : {false, true}) {
+                    const SolverCaseOptions options{
+                        .turbulence = turbulence, .compressible = special && !unsteady, .unsteady = unsteady};
+                    for (const cases::SolverCaseFile& file :
+                         cases::solver_case_files(solver, case_mesh(), conditions, options)) {
+                        EXPECT_FALSE(std::regex_search(file.text, placeholder)) << name << " " << file.name;
+                        EXPECT_EQ(file.executable, file.text.starts_with("#!")) << file.name;
+                    }
                 }
             }
 }
@@ -158,6 +162,43 @@ TEST(OpenFoamCase, AGasHasTheMachNumberAndDensityOneUpstream) {
     SolverConditions supersonic = some_conditions();
     supersonic.reference.mach = 1.2;
     EXPECT_THROW(openfoam_files(supersonic, {.compressible = true}), OptionError);
+}
+
+/// In a step the stream crosses no more than one edge of the shorter ones, and steps fill a convective time.
+TEST(OpenFoamCase, StepsInTimeFollowTheMesh) {
+    SolverConditions conditions = some_conditions();
+    conditions.velocity = 50;
+    const auto files = openfoam_files(conditions, {.unsteady = true});
+    const std::string control = text_of(files, "system/controlDict"), run = text_of(files, "Allrun");
+    EXPECT_EQ(value_of(control, "application"), "pimpleFoam");
+    EXPECT_EQ(value_of(text_of(files, "system/medium"), "forceDensity"), "rhoInf");
+    EXPECT_EQ(value_of(text_of(files, "system/fvSchemes"), "default"), "$timeScheme");
+    std::smatch steps;
+    ASSERT_TRUE(std::regex_search(run, steps, std::regex("step=(\\S+) steps=([0-9]+) ")));
+    const double step = std::stod(steps[1]), of_time = std::stod(value_of(control, "deltaT"));
+    EXPECT_EQ(step, of_time);
+    EXPECT_NEAR(step * std::stod(steps[2]), 2.0 / 50, 1e-15);
+    const Mesh mesh = case_mesh();
+    std::size_t shorter = 0, outside = 0;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        if (mesh.region[i] == Region::layer) continue;
+        ++outside;
+        double shortest = HUGE_VAL;
+        for (unsigned k = 0; k < 3; ++k)
+            shortest = std::min(shortest, distance(mesh.points[mesh.triangles[i].v[k].index()],
+                                                   mesh.points[mesh.triangles[i].v[(k + 1) % 3].index()]));
+        if (50 * step > shortest) ++shorter;
+    }
+    EXPECT_LE(shorter, (outside + 3) / 4);
+    // Steady cases have none of this.
+    for (const cases::SolverCaseFile& file : openfoam_files(conditions))
+        EXPECT_EQ(file.text.find("pimpleFoam"), std::string::npos) << file.name;
+}
+
+TEST(OpenFoamCase, InTimeIsIncompressible) {
+    SolverConditions conditions = some_conditions();
+    conditions.reference.mach = 0.2;
+    EXPECT_THROW(openfoam_files(conditions, {.compressible = true, .unsteady = true}), OptionError);
 }
 
 TEST(OpenFoamCase, InletAndOutletBothHaveTheFarFieldsConditions) {

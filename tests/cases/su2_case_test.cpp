@@ -45,8 +45,10 @@ TEST(Su2Case, EveryOptionIsOneOfSu2) {
     EXPECT_GT(known.size(), 60u);
     for (const auto turbulence :
          {TurbulenceModel::spalart_allmaras, TurbulenceModel::k_omega_sst, TurbulenceModel::laminar})
-        for (const auto& [name, value] : options_of_case(some_conditions(), {.turbulence = turbulence}))
-            EXPECT_TRUE(known.contains(name)) << name;
+        for (const bool unsteady : {false, true})
+            for (const auto& [name, value] :
+                 options_of_case(some_conditions(), {.turbulence = turbulence, .unsteady = unsteady}))
+                EXPECT_TRUE(known.contains(name)) << name;
 }
 
 /// Flows that may have shocks get a limiter, others the correction for low Mach numbers. Faster than sound, nothing reaches
@@ -62,6 +64,21 @@ TEST(Su2Case, HasASchemeForEachMachNumber) {
         for (const FlowSolver solver : {FlowSolver::su2, FlowSolver::openfoam})
             EXPECT_EQ(far_field_for(solver, mach) < far_field_for(solver), mach >= 1) << mach;
     }
+}
+
+/// SU2 counts seconds at its own speed of sound, 347 m/s.
+TEST(Su2Case, GoesInStepsOfTime) {
+    SolverConditions conditions = some_conditions();
+    conditions.reference.mach = 0.2;
+    auto options = options_of_case(conditions, {.unsteady = true});
+    EXPECT_EQ(options["TIME_DOMAIN"], "YES");
+    const std::string run =
+        test::text_of(cases::solver_case_files(FlowSolver::su2, case_mesh(), conditions, {.unsteady = true}), "Allrun");
+    std::smatch steps;
+    ASSERT_TRUE(std::regex_search(run, steps, std::regex("\nsteps=([0-9]+) ")));
+    EXPECT_NEAR(std::stod(options["TIME_STEP"]) * std::stod(steps[1]) * 0.2 * 347.2, 2, 1e-3);
+    EXPECT_FALSE(options.contains("ITER"));
+    EXPECT_FALSE(options_of_case(conditions).contains("TIME_STEP"));
 }
 
 /// Below a Reynolds number of 1e4 cases are laminar, unless they are asked for a model.

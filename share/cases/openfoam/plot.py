@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws residuals, lift and drag of all iterations so far: history.png. Allrun calls it where matplotlib is there.
+"""Draws residuals, lift and drag so far: history.png. Allrun calls it where matplotlib is there.
 
   ./plot.py
 """
@@ -38,10 +38,9 @@ forces = history("forces", "coefficient.dat")
 time = [float(t) for t in forces["Time"]]
 for axes, name in ((middle, "Cl"), (bottom, "Cd")):
     values = [float(v) for v in forces[name]]
-    last = values[-1]
-    shown = [v for v in values if abs(v - last) < 0.2 * abs(last)] or [last]
+    shown = values[len(values) // 2 :]
     axes.plot(time, values)
     axes.set_ylim(min(shown), max(shown) if max(shown) > min(shown) else min(shown) + 1e-6)
     axes.set_ylabel(name.upper())
-bottom.set_xlabel("iteration")
+bottom.set_xlabel("@TIME_AXIS@")
 figure.savefig(pathlib.Path(__file__).parent / "history.png", dpi=120)
