@@ -27,6 +27,7 @@ constexpr std::array reserved_words =
                                      "defaultfaces",  // OpenFOAM: the sides, and faces without a patch
                                      "y0",
                                      "y1",  // FUN3D: the planes of a mesh one cell thick
+                                     "interior",  // Fluent: the faces between cells
                                      "zone",
                                      "zonetype",
                                      "zonebc",

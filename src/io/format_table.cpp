@@ -53,6 +53,11 @@ void write_msh_variant(const MeshView& mesh, const fs::path& file, std::ostream&
     write_msh(mesh, file, {version_4, binary}, out);
 }
 
+template <bool binary>
+void write_fluent_variant(const MeshView& mesh, const fs::path& file, std::ostream& out) {
+    write_fluent(mesh, file, binary, out);
+}
+
 template <bool compressed>
 void write_vtu_variant(const MeshView& mesh, const fs::path& file, const WriteOptions& options) {
     core::write_stream_atomically(file, [&](std::ostream& out) {
@@ -179,6 +184,23 @@ FormatRow openfoam_row() {
             .takes_parts = true};
 }
 
+std::vector<FormatRow> fluent_rows() {
+    std::vector<FormatRow> rows;
+    const auto add = [&](const char* name, const char* description, auto write) {
+        rows.push_back({.name = name,
+                        .extensions = {".cas"},
+                        .description = description,
+                        .write = write,
+                        .files = one_file,
+                        .read = read_one_file<read_fluent>,
+                        .one_stream = true});
+    };
+    add("fluent", "Ansys Fluent mesh, ASCII", write_one_file<write_fluent_variant<false>>);
+    rows.back().recognizes = holds_fluent_mesh;
+    add("fluent-binary", "Ansys Fluent mesh, binary", write_one_file<write_fluent_variant<true>>);
+    return rows;
+}
+
 std::vector<FormatRow> ugrid_rows() {
     std::vector<FormatRow> rows;
     const auto add = [&](const char* name, std::vector<std::string> extensions, const char* description, auto write) {
@@ -213,6 +235,7 @@ std::vector<FormatRow> make_table() {
     add(vtu_rows());
     add({openfoam_row()});
     add(ugrid_rows());
+    add(fluent_rows());
     add({triangle_row()});
     return table;
 }
@@ -238,14 +261,15 @@ void refuse_missing_cgns(const fs::path& file, const std::string& name, const st
 
 /// Returns a name of ours for what other programs call a format, or the closest name that is known.
 std::string meant_format(const std::string& name, const std::vector<std::string>& names) {
-    static constexpr std::array<std::pair<const char*, const char*>, 8> other_names{{{"gmsh", "msh41"},
+    static constexpr std::array<std::pair<const char*, const char*>, 9> other_names{{{"gmsh", "msh41"},
                                                                                      {"gmsh2", "msh22"},
                                                                                      {"gmsh4", "msh41"},
                                                                                      {"vtk", "vtu"},
                                                                                      {"paraview", "vtu"},
                                                                                      {"foam", "openfoam"},
                                                                                      {"hdf5", "cgns"},
-                                                                                     {"aflr", "ugrid"}}};
+                                                                                     {"aflr", "ugrid"},
+                                                                                     {"ansys", "fluent"}}};
     for (const auto& [other, ours] : other_names)
         if (core::lower_case(name) == other) return ours;
     return closest_word(name, names);

@@ -124,6 +124,13 @@ struct CgnsVariant {
 void write_cgns(const MeshView& mesh, const std::filesystem::path& file, CgnsVariant variant);
 Mesh read_cgns(const std::filesystem::path& file);
 
+/// Writes ASCII, or binary.
+void write_fluent(const MeshView& mesh, const std::filesystem::path& file, bool binary, std::ostream& out);
+/// Reads either.
+Mesh read_fluent(const std::string& bytes, const std::filesystem::path& file);
+/// Returns whether a file is Fluent's although its extension, .msh, stands for Gmsh's.
+bool holds_fluent_mesh(const std::filesystem::path& file);
+
 /// The patch for the two sides of meshes that are one cell thick.
 inline constexpr const char* front_and_back = "frontAndBack";
 void check_openfoam_writable(const std::filesystem::path& file);

@@ -11,7 +11,6 @@
 // front.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -22,12 +21,11 @@
 #include <lamina/io.hpp>
 
 #include "core/atomic_file.hpp"
-#include "core/parallel.hpp"
 #include "io/formats.hpp"
+#include "io/mesh_faces.hpp"
 #include "io/mesh_parts.hpp"
 #include "io/openfoam_span.hpp"
 #include "io/text_output.hpp"
-#include "mesh/adjacency.hpp"
 #include "mesh/partition.hpp"
 
 namespace lamina::io {
@@ -50,52 +48,6 @@ void write_list(std::ostream& out, std::size_t n, F&& put_line) {
     out << ")\n";
 }
 
-/// Side faces, each given by the directed edge of its owner that it stands on (CellEdges).
-using SideFaces = std::vector<std::uint32_t>;
-
-/// Returns each internal face once, on the edge of the lower cell, sorted by owner, then by neighbour.
-SideFaces internal_faces(const mesh::CellEdges& edges, const mesh::Adjacency& adjacency) {
-    constexpr std::size_t grain = 1 << 14;
-    const auto faces_of = [&](std::size_t begin, std::size_t end) {
-        SideFaces faces;
-        for (std::size_t cell = begin; cell < end; ++cell) {
-            const auto first = static_cast<std::ptrdiff_t>(faces.size());
-            for (std::size_t e = edges.first(cell); e < edges.first(cell) + edges.corners(cell); ++e)
-                if (adjacency.twin[e] != mesh::no_edge && edges.cell_of(adjacency.twin[e]) > cell)
-                    faces.push_back(static_cast<std::uint32_t>(e));
-            std::sort(faces.begin() + first, faces.end(), [&](std::uint32_t a, std::uint32_t b) {
-                return edges.cell_of(adjacency.twin[a]) < edges.cell_of(adjacency.twin[b]);
-            });
-        }
-        return faces;
-    };
-    SideFaces all;
-    for (const SideFaces& faces : core::parallel_blocks(edges.cells(), grain, faces_of))
-        all.insert(all.end(), faces.begin(), faces.end());
-    return all;
-}
-
-/// Returns the faces on the edges of the markers, marker by marker. Throws MeshError where such an edge is not on the
-/// boundary or has its cell on the right.
-SideFaces marker_faces(const MeshView& mesh, const mesh::CellEdges& edges, const mesh::Adjacency& adjacency,
-                       const fs::path& file) {
-    std::vector<Segment> marked;
-    for (const Marker& marker : mesh.markers) marked.insert(marked.end(), marker.edges.begin(), marker.edges.end());
-    SideFaces faces = mesh::find_edges(mesh, marked);
-    std::size_t i = 0;
-    for (const Marker& marker : mesh.markers)
-        for (const Segment& edge : marker.edges) {
-            const std::uint32_t e = faces[i++];
-            if (e != mesh::no_edge && adjacency.twin[e] == mesh::no_edge && edges.origin(e) == edge.a) continue;
-            const Point at = mesh.points[edge.a.index()];
-            throw MeshError(
-                fmt::format("{}: OpenFOAM cannot hold an edge of marker '{}' at ({}, {}) that is not on "
-                            "the boundary, with its cell on the left",
-                            file.string(), marker.name, at.x, at.y));
-        }
-    return faces;
-}
-
 const char* patch_type(MarkerKind kind) {
     switch (kind) {
         case MarkerKind::wall:
@@ -112,24 +64,14 @@ const char* patch_type(MarkerKind kind) {
 class PolyMeshWriter {
 public:
     PolyMeshWriter(const MeshView& mesh, const fs::path& file)
-        : mesh_(mesh), file_(file), edges_(mesh), adjacency_(mesh::find_adjacency(mesh)) {
-        if (!adjacency_.overused.empty())
-            throw MeshError(fmt::format("{}: OpenFOAM cannot hold a mesh that is not conforming", file.string()));
-        sides_ = internal_faces(edges_, adjacency_);
-        internal_ = sides_.size();
-        const SideFaces marked = marker_faces(mesh, edges_, adjacency_, file);
-        sides_.insert(sides_.end(), marked.begin(), marked.end());
-        if (sides_.size() - internal_ != adjacency_.boundary.size())
-            throw MeshError(
-                fmt::format("{}: OpenFOAM wants every edge of the boundary in exactly one marker", file.string()));
-    }
+        : mesh_(mesh), file_(file), faces_(find_faces(mesh, file, "OpenFOAM")) {}
 
     void write(const fs::path& folder) const {
-        const std::size_t n = mesh_.points.size(), cells = edges_.cells();
-        const std::size_t faces = sides_.size() + 2 * cells;
+        const std::size_t n = mesh_.points.size(), cells = faces_.edges.cells();
+        const std::size_t faces = faces_.faces.size() + 2 * cells;
         const std::string note =
             fmt::format("    note        \"nPoints:{}  nCells:{}  nFaces:{}  nInternalFaces:{}\";\n", 2 * n, cells,
-                        faces, internal_);
+                        faces, faces_.internal);
         write_part(folder, "points", "vectorField", "", [&](std::ostream& out) { write_points(out); });
         write_part(folder, "faces", "faceList", "", [&](std::ostream& out) { write_faces(out, faces); });
         write_part(folder, "owner", "labelList", note, [&](std::ostream& out) { write_owners(out, faces); });
@@ -154,40 +96,38 @@ private:
         });
     }
     void write_faces(std::ostream& out, std::size_t faces) const {
-        const std::size_t cells = edges_.cells();
+        const std::size_t cells = faces_.edges.cells(), sides = faces_.faces.size();
         write_list(out, faces, [&](LineText& line, std::size_t f) {
-            if (f < sides_.size())
-                put_side(line, sides_[f]);
-            else if (f < sides_.size() + cells)
-                put_back(line, f - sides_.size());
+            if (f < sides)
+                put_side(line, f);
+            else if (f < sides + cells)
+                put_back(line, f - sides);
             else
-                put_front(line, f - sides_.size() - cells);
+                put_front(line, f - sides - cells);
             line.take_back() << ")";
         });
     }
-    void put_side(LineText& line, std::size_t edge) const {
+    void put_side(LineText& line, std::size_t side) const {
         const std::size_t n = mesh_.points.size();
-        const std::size_t a = edges_.origin(edge).index(), b = edges_.target(edge).index();
+        const std::size_t a = faces_.origin(side).index(), b = faces_.target(side).index();
         line.tight("4(") << a << b << n + b << n + a;
     }
     void put_back(LineText& line, std::size_t cell) const {
-        line.tight(edges_.corners(cell) == 3 ? "3(" : "4(");
-        for (std::size_t k = edges_.corners(cell); k-- > 0;) line << edges_.corner(cell, k).index();
+        line.tight(faces_.edges.corners(cell) == 3 ? "3(" : "4(");
+        for (std::size_t k = faces_.edges.corners(cell); k-- > 0;) line << faces_.edges.corner(cell, k).index();
     }
     void put_front(LineText& line, std::size_t cell) const {
-        line.tight(edges_.corners(cell) == 3 ? "3(" : "4(");
-        for (std::size_t k = 0; k < edges_.corners(cell); ++k)
-            line << mesh_.points.size() + edges_.corner(cell, k).index();
+        line.tight(faces_.edges.corners(cell) == 3 ? "3(" : "4(");
+        for (std::size_t k = 0; k < faces_.edges.corners(cell); ++k)
+            line << mesh_.points.size() + faces_.edges.corner(cell, k).index();
     }
     void write_owners(std::ostream& out, std::size_t faces) const {
-        const std::size_t cells = edges_.cells();
-        write_list(out, faces, [&](LineText& line, std::size_t f) {
-            line << (f < sides_.size() ? edges_.cell_of(sides_[f]) : (f - sides_.size()) % cells);
-        });
+        const std::size_t cells = faces_.edges.cells(), sides = faces_.faces.size();
+        write_list(out, faces,
+                   [&](LineText& line, std::size_t f) { line << (f < sides ? faces_.owner(f) : (f - sides) % cells); });
     }
     void write_neighbours(std::ostream& out) const {
-        write_list(out, internal_,
-                   [&](LineText& line, std::size_t f) { line << edges_.cell_of(adjacency_.twin[sides_[f]]); });
+        write_list(out, faces_.internal, [&](LineText& line, std::size_t f) { line << faces_.neighbour(f); });
     }
     void write_patches(std::ostream& out) const {
         const auto write_patch = [&](const std::string& name, const char* type, std::size_t faces, std::size_t start) {
@@ -198,21 +138,18 @@ private:
                 name, type, faces, start);
         };
         out << mesh_.markers.size() + 1 << "\n(\n";
-        std::size_t start = internal_;
+        std::size_t start = faces_.internal;
         for (const Marker& marker : mesh_.markers) {
             write_patch(marker.name, patch_type(marker.kind), marker.edges.size(), start);
             start += marker.edges.size();
         }
-        write_patch(front_and_back, "empty", 2 * edges_.cells(), start);
+        write_patch(front_and_back, "empty", 2 * faces_.edges.cells(), start);
         out << ")\n";
     }
 
     MeshView mesh_;
     const fs::path& file_;
-    mesh::CellEdges edges_;
-    mesh::Adjacency adjacency_;
-    SideFaces sides_;           ///< the internal faces, then those of the markers
-    std::size_t internal_ = 0;  ///< number of internal faces
+    MeshFaces faces_;  ///< the side faces
 };
 
 /// Writes the part of each cell.
