@@ -127,7 +127,7 @@ public:
     void name_no_line() { names_line_ = false; }
     /// Throws InputError with the file and the line.
     [[noreturn]] void fail(const std::string& reason) const {
-        throw InputError({file_, !names_line_ ? 0 : line_at(bytes_, std::min(at_, bytes_.size())), {}}, reason);
+        throw InputError({file_, names_line_ ? line_at(bytes_, std::min(at_, bytes_.size())) : 0, {}}, reason);
     }
 
 private:

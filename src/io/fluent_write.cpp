@@ -1,7 +1,8 @@
 // Writes Ansys Fluent's mesh format, ASCII and binary. fluent.hpp describes the format.
 //
 // Zone 1 holds the nodes, zone 2, `fluid`, the cells, zone 3, `interior`, the faces between cells, and each marker has a
-// zone of its own. Nodes and cells keep their order.
+// zone of its own. Nodes and cells keep their order. Coordinates in ASCII have 17 digits: OpenFOAM rounds what it reads
+// twice, and misses some numbers of the fewest digits.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -66,9 +67,7 @@ private:
             write_records(out_, n, 2 * sizeof(double),
                           [&](char* p, std::size_t i) { store(store(p, mesh_.points[i].x), mesh_.points[i].y); });
         else
-            write_lines(out_, n, [&](LineText& line, std::size_t i) {
-                line.shortest(mesh_.points[i].x).shortest(mesh_.points[i].y);
-            });
+            write_lines(out_, n, [&](LineText& line, std::size_t i) { line << mesh_.points[i]; });
         end(fluent_nodes, fluent_doubles);
     }
 

@@ -41,12 +41,6 @@ public:
         *at_++ = ' ';
         return *this;
     }
-    /// Adds a number with the fewest digits that it is read back from exactly.
-    LineText& shortest(double value) {
-        at_ = std::to_chars(at_, at_ + 30, value, std::chars_format::scientific).ptr;
-        *at_++ = ' ';
-        return *this;
-    }
     /// Adds a number with 17 significant digits, without an exponent where that is shorter.
     LineText& general(double value) {
         at_ = std::to_chars(at_, at_ + 30, value, std::chars_format::general, 17).ptr;

@@ -24,11 +24,11 @@ constexpr const char* tiny_fluent =
     "(12 (0 1 2 0))\n"
     "(13 (0 1 6 0))\n"
     "(10 (1 1 5 1 2)(\n"
-    "0e+00 0e+00\n"
-    "1e+00 0e+00\n"
-    "1e-01 1e-05\n"
-    "-0e+00 1e+00\n"
-    "-1e+00 3.333333333333333e-01\n"
+    "0.0000000000000000e+00 0.0000000000000000e+00\n"
+    "1.0000000000000000e+00 0.0000000000000000e+00\n"
+    "1.0000000000000001e-01 1.0000000000000001e-05\n"
+    "-0.0000000000000000e+00 1.0000000000000000e+00\n"
+    "-1.0000000000000000e+00 3.3333333333333331e-01\n"
     "))\n"
     "(12 (2 1 2 1 0)(\n"
     "1 3\n"
@@ -172,9 +172,9 @@ TEST(Fluent, SaysWhereAFileIsMalformed) {
     expect_complaint("(2 2)", "2 2", 2, "'(' expected");
     expect_complaint("1 5 1 2)", "1 ffffffff 1 2)", 6, "no room");
     expect_complaint("1 5 1 2)", "1 5 1 3)", 6, "two coordinates");
-    expect_complaint("1e-01 1e-05", "1e-01 nan", 9, "finite");
-    expect_complaint("1e-01 1e-05", "1e-01 x", 9, "coordinate expected");
-    expect_complaint("1 3\n", "1 2\n", 13, "shape 2");
+    expect_complaint("1.0000000000000001e-05", "nan", 9, "finite");
+    expect_complaint("1.0000000000000001e-05", "x", 9, "coordinate expected");
+    expect_complaint("1 3\n", "1 2\n", 14, "shape 2");
     expect_complaint("1 2 1 0\n", "1 6 1 0\n", 0, "node 6 where there are 5");
     expect_complaint("1 2 1 0\n", "1 2 3 0\n", 0, "cell 3 where there are 2");
     expect_complaint("1 2 1 0\n", "1 2 0 0\n", 0, "has no cell");

@@ -3,7 +3,7 @@
 
 usage: check_readers.py LAMINA FOLDER
 
-Readers: Gmsh, meshio, VTK, cgnscheck, and OpenFOAM's checkMesh and gmshToFoam, as Debian packages them. `./dev
+Readers: Gmsh, meshio, VTK, cgnscheck, and OpenFOAM's checkMesh, gmshToFoam and fluentMeshToFoam, as Debian packages them. `./dev
 test-readers` installs them and runs this. The reference of every mesh is `lamina check --json` on its SU2 file.
 """
 
@@ -41,6 +41,8 @@ FILES = {  # format: file
     "openfoam": "case",
     "ugrid": "m.ugrid",
     "fun3d": "f.b8.ugrid",
+    "fluent": "a.cas",
+    "fluent-binary": "b.cas",
 }
 CONTROL = """FoamFile {{ version 2.0; format ascii; class dictionary; object {}; }}
 application none; startFrom startTime; startTime 0; stopAt endTime; endTime 1; deltaT 1;
@@ -126,6 +128,38 @@ def check_meshio(folder, reference):
     expected = {kind: n for kind, n in expected.items() if n}
     expect(counts(mesh) == expected, "meshio reads f.b8.ugrid", (counts(mesh), expected))
 
+    # Fluent's files hold faces, of which every one between two cells counts once.
+    faces = (3 * reference["triangles"] + 4 * reference["quads"] + edges) // 2
+    points = meshio.read(folder / "m.vtu").points[:, :2]
+    for name in ["a.cas", "b.cas"]:
+        mesh = meshio.read(folder / name, file_format="ansys")
+        expect(counts(mesh) == {"line": faces} and (mesh.points == points).all(),
+               f"meshio reads {name}: {faces} faces, and every point bit for bit", counts(mesh))
+
+
+def check_exports(folder, reference):
+    """Expects that the lines of Python on the page of formats write what they say."""
+    import meshio
+
+    page = Path(__file__).resolve().parents[2] / "docs/reference/formats.md"
+    block = re.search(r"^```python\n(.*?)^```$", page.read_text(), flags=re.M | re.S).group(1)
+    for name, file in {"mesh.msh": "a41.msh", "mesh.vtu": "m.vtu"}.items():
+        (folder / name).write_bytes((folder / file).read_bytes())
+    code, said = run(sys.executable, "-c", block, cwd=folder)
+    expect(code == 0, "meshio writes what the page says", said)
+    if code != 0:
+        return
+    abaqus = (folder / "mesh.inp").read_text()
+    sets = set(re.findall(r"^\*ELSET, *ELSET=(\S+)$", abaqus, flags=re.M))
+    elements = sum(len(lines.splitlines()) for lines in re.findall(r"^\*ELEMENT.*\n((?:[^*].*\n)*)", abaqus, flags=re.M))
+    cells = reference["triangles"] + reference["quads"]
+    edges = edges_of(reference)
+    expect(elements == cells + sum(edges.values()) and set(edges) < sets, f"Abaqus: all elements, and sets {sets}", elements)
+    for name, wanted in {"mesh.vtk": cells + sum(edges.values()), "mesh.dat": cells}.items():
+        mesh = meshio.read(folder / name, **({"file_format": "tecplot"} if name.endswith("dat") else {}))
+        found = sum(len(block.data) for block in mesh.cells)
+        expect(found == wanted and len(mesh.points) == reference["vertices"], f"{name} holds {wanted} cells", found)
+
 
 def check_vtk(folder, reference):
     import vtk
@@ -152,6 +186,25 @@ def check_vtk(folder, reference):
         cells = types != vtk.VTK_LINE
         difference = abs(theirs - ours)[cells].max()
         expect(difference < 1e-6, f"VTK measures the same quality: they differ by {difference:.1e}")
+
+    vertices = vtk_to_numpy(grid.GetPoints().GetData())
+    vtk.vtkObject.GlobalWarningDisplayOff()  # the reader of Fluent's files asks for a solution beside the mesh
+    for name in ["a.cas", "b.cas"]:
+        reader = vtk.vtkFLUENTReader()
+        reader.SetFileName(str(folder / name))
+        reader.Update()
+        grid = reader.GetOutput().GetBlock(0)
+        types = vtk_to_numpy(grid.GetCellTypesArray())
+        found = [(types == t).sum() for t in (vtk.VTK_TRIANGLE, vtk.VTK_QUAD)]
+        measure.SetInputData(grid)
+        measure.SetTriangleQualityMeasureToArea()
+        measure.SetQuadQualityMeasureToArea()
+        measure.Update()
+        smallest = vtk_to_numpy(measure.GetOutput().GetCellData().GetArray("Quality")).min()
+        same = (abs(vtk_to_numpy(grid.GetPoints().GetData()) - vertices) <= 1e-6 * (1 + abs(vertices))).all()
+        expect(found == expected[:2] and same and smallest > 0, f"VTK reads {name}: all cells, counter-clockwise",
+               (found, same, smallest))
+    vtk.vtkObject.GlobalWarningDisplayOn()
 
     reader = vtk.vtkXMLPUnstructuredGridReader()
     reader.SetFileName(str(folder / "m.pvtu"))
@@ -270,14 +323,18 @@ def check_openfoam(folder, reference):
     expect(code == 0 and len(sizes) == 4 and sum(sizes) == cells and max(sizes) - min(sizes) <= 1,
            f"decomposePar divides the case by cellDecomposition: {sizes}", said)
 
-    case = folder / "from_gmsh"
-    foam_case(case)
-    code, said = run("gmshToFoam", (folder / "extruded.msh").resolve(), "-case", case, env=OPENFOAM)
-    expect(code == 0 and "FATAL" not in said, "gmshToFoam reads extruded.msh", said)
-    back = facts(case)
-    expected = (reference["triangles"], reference["quads"], edges_of(reference))
-    expect((back["triangles"], back["quads"], edges_of(back)) == expected and back["hash"] == reference["hash"],
-           "gmshToFoam makes the same mesh and patches of it", back)
+    for program, file in {"gmshToFoam": "extruded.msh", "fluentMeshToFoam": "a.cas"}.items():
+        case = folder / f"by_{program}"
+        foam_case(case)
+        code, said = run(program, (folder / file).resolve(), "-case", case, env=OPENFOAM)
+        expect(code == 0 and "FATAL" not in said, f"{program} reads {file}", said)
+        back = facts(case)
+        expected = (reference["triangles"], reference["quads"], edges_of(reference))
+        expect((back["triangles"], back["quads"], edges_of(back)) == expected and back["hash"] == reference["hash"],
+               f"{program} makes the same mesh and patches of it", back)
+        code, said = run("checkMesh", "-allTopology", "-case", case, env=OPENFOAM)
+        expect(code == 0 and "***" not in said[said.find("Checking topology"):said.find("Checking geometry")] and
+               "Cell volumes OK" in said, "checkMesh finds its topology and its volumes in order", said)
 
 
 def three_named(folder, names, command, *arguments):
@@ -360,6 +417,8 @@ def main():
         check_openfoam(folder, reference)
         if name == "single":
             check_sizes(folder, inputs)
+        if name == "quads":
+            check_exports(folder, reference)
     print("\nnames")
     for number, names in enumerate(NAMES):
         check_names(FOLDER / f"names_{number}", names)
