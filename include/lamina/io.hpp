@@ -17,6 +17,7 @@
 //     assert(mesh_hash(read_mesh("section.su2")) == mesh_hash(mesh));
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 
@@ -42,11 +43,17 @@ LAMINA_EXPORT std::vector<MeshFormat> mesh_formats();  ///< all formats of this 
 /// The largest number of parts that write_mesh() divides a mesh into.
 inline constexpr std::size_t max_parts = 65'536;
 
+/// The ends of a mesh in space: planes of symmetry, or planes of which each continues the mesh at the other.
+enum class SpanEnds : std::uint8_t { symmetry, periodic };
+
 /// Options of write_mesh().
 struct WriteOptions {
     std::string format{};        ///< a name, or an extension without its dot; empty: by the extension of the file
     bool wall_distance = false;  ///< writes the distance to the nearest wall as point data, in VTU files
     std::size_t parts = 1;  ///< of PVTU files; more than one make OpenFOAM's cellDecomposition beside polyMesh, too
+    double span = 0;        ///< depth in units of the mesh; 0: a plane mesh, or one that is 1 deep
+    std::size_t span_cells = 1;               ///< number of cells across the span
+    SpanEnds span_ends = SpanEnds::symmetry;  ///< of the span
 };
 
 /// Writes a mesh. Throws UsageError, too, for marker names, and MeshError for a mesh that the format cannot hold.

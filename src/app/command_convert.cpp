@@ -81,6 +81,24 @@ void add_convert_command(CLI::App& app) {
                      "set the kind of this marker to symmetry; may be given several times")
         ->type_name("NAME")
         ->allow_extra_args(false);
+    command
+        ->add_option("--span", arguments->options.span,
+                     "depth in units of the mesh, which becomes one of prisms and hexahedra in space: CGNS, VTU, "
+                     "msh22-extruded, OpenFOAM, FUN3D")
+        ->check(CLI::PositiveNumber)
+        ->type_name("L");
+    command->add_option("--span-cells", arguments->options.span_cells, "number of cells across --span")
+        ->check(CLI::Range(std::size_t{1}, std::size_t{100'000}))
+        ->type_name("N");
+    command
+        ->add_option_function<std::string>(
+            "--span-ends",
+            [arguments](const std::string& ends) {
+                arguments->options.span_ends = ends == "periodic" ? SpanEnds::periodic : SpanEnds::symmetry;
+            },
+            "what the two planes at the ends of --span are")
+        ->check(CLI::IsMember({"symmetry", "periodic"}))
+        ->type_name("symmetry|periodic");
     command->add_flag("--wall-distance", arguments->options.wall_distance,
                       "write the distance to the nearest wall as point data, in VTU files");
     command

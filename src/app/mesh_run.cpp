@@ -68,8 +68,13 @@ RankTraffic total_traffic(Ranks& ranks) {
 
 }  // namespace
 
-WriteOptions write_options(const MeshCase& mesh_case) {
-    return {.format = mesh_case.format, .wall_distance = mesh_case.wall_distance, .parts = mesh_case.parts};
+WriteOptions write_options(const MeshCase& mesh_case, double chord) {
+    return {.format = mesh_case.format,
+            .wall_distance = mesh_case.wall_distance,
+            .parts = mesh_case.parts,
+            .span = mesh_case.span ? in_units(*mesh_case.span, chord) : 0,
+            .span_cells = mesh_case.span_cells,
+            .span_ends = mesh_case.span_ends};
 }
 
 MeshDestination destination_of_outputs(const MeshCase& mesh_case) {
@@ -88,7 +93,8 @@ MeshDestination destination_of_outputs(const MeshCase& mesh_case) {
                                           : std::vector<Warning>{};
     };
     destination.write = [&mesh_case](const MeshResult& result) {
-        for (const std::string& output : mesh_case.outputs) write_mesh(result.mesh, output, write_options(mesh_case));
+        for (const std::string& output : mesh_case.outputs)
+            write_mesh(result.mesh, output, write_options(mesh_case, result.conditions.chord));
     };
     return destination;
 }

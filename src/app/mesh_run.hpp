@@ -23,8 +23,8 @@ struct MeshDestination {
     std::function<void(const MeshResult&)> write;                     ///< writes them
 };
 
-/// Returns how a case writes its mesh files.
-WriteOptions write_options(const MeshCase& mesh_case);
+/// Returns how a case writes its mesh files; `chord` is what its lengths count.
+WriteOptions write_options(const MeshCase& mesh_case, double chord = 1);
 
 /// Returns the destination that the outputs of `lamina mesh` name. Throws UsageError where there are none. The
 /// destination refers to the case.

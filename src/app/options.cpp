@@ -46,6 +46,15 @@ OptionTable<MeshCase> file_options() {
         "number of parts of equal size: of PVTU files, and of the file cellDecomposition beside OpenFOAM's polyMesh, "
         "which decomposePar reads",
         numbers_from_to(1, max_parts), member_at(&MeshCase::parts));
+    table.length("span", "L",
+                 "depth of the mesh, which becomes one of prisms and hexahedra in space: CGNS, VTU, msh22-extruded, "
+                 "OpenFOAM, FUN3D",
+                 positive_numbers, member_at(&MeshCase::span));
+    table.count("span-cells", "N", "number of cells across --span", numbers_from_to(1, 100'000),
+                member_at(&MeshCase::span_cells));
+    table.choice("span-ends", "what the two planes at the ends of --span are",
+                 Choices<SpanEnds>{{"symmetry", SpanEnds::symmetry}, {"periodic", SpanEnds::periodic}},
+                 member_at(&MeshCase::span_ends));
     table.flag("wall-distance", "write the distance to the nearest wall as point data, in VTU files", true,
                member_at(&MeshCase::wall_distance));
     table.text("wall-data", OptionKind::path, "FILE",

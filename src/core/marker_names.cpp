@@ -26,7 +26,9 @@ constexpr std::array reserved_words =
                                      "frontandback",
                                      "defaultfaces",  // OpenFOAM: the sides, and faces without a patch
                                      "y0",
-                                     "y1",  // FUN3D: the planes of a mesh one cell thick
+                                     "y1",  // FUN3D: the planes at the ends of a span
+                                     "z0",
+                                     "z1",  // those of other formats
                                      "interior",  // Fluent: the faces between cells
                                      "zone",
                                      "zonetype",

@@ -7,6 +7,10 @@
 //  - the family that the boundary condition points to, which holds the kind of boundary.
 // Sections of cells are named REGION_triangles and REGION_quads. The numbers of elements run from the cells on to the
 // bars.
+//
+// A mesh in space (extrusion.hpp) has sections PENTA_6 and HEXA_8 in their place, REGION_prisms and REGION_hexahedra, a
+// section QUAD_4 for each marker, and sections of triangles and quads for each of the two planes, which are boundary
+// conditions like markers, or are connected to each other where they are periodic.
 #include <cgnslib.h>
 
 #include <fmt/format.h>
@@ -35,6 +39,9 @@ namespace {
 
 constexpr std::size_t parallel_grain = 1 << 16;
 
+/// Exponents of mass, length, time, temperature and angle. The unit of length is that of the input, which is not known.
+constexpr std::array<float, 5> length_dimension{0, 1, 0, 0, 0}, angle_dimension{0, 0, 0, 0, 1};
+
 BCType_t condition_of(MarkerKind kind) {
     switch (kind) {
         case MarkerKind::wall:
@@ -49,14 +56,28 @@ BCType_t condition_of(MarkerKind kind) {
     return BCGeneral;
 }
 
-std::string section_name(const CellBlock& block) {
-    return fmt::format("{}_{}", block.region, block.corners == 3 ? "triangles" : "quads");
+std::string section_name(const CellBlock& block, bool in_space) {
+    const bool triangles = block.corners == 3;
+    return fmt::format("{}_{}", block.region,
+                       in_space ? (triangles ? "prisms" : "hexahedra") : (triangles ? "triangles" : "quads"));
 }
+
+/// A part of the boundary with a name: a marker, or a plane at the end of a span.
+struct BoundaryPart {
+    std::string name;
+    MarkerKind kind;
+    cgsize_t first = 0, last = -1;  ///< numbers of its elements
+};
 
 class CgnsWriter {
 public:
     CgnsWriter(const MeshView& mesh, CgnsVariant variant, const fs::path& target)
-        : mesh_(mesh), variant_(variant), target_(target) {}
+        : mesh_(mesh), variant_(variant), extrusion_(variant.extrusion), target_(target) {
+        for (const Marker& marker : mesh.markers) boundary_.push_back({marker.name, marker.kind});
+        if (extrusion_ != nullptr)
+            for (const char* plane : {first_plane, last_plane})
+                boundary_.push_back({plane, extrusion_->periodic ? MarkerKind::other : MarkerKind::symmetry});
+    }
 
     void write(const fs::path& file) {
         require(cg_set_file_type(variant_.adf ? CG_FILE_ADF : CG_FILE_HDF5));
@@ -66,6 +87,7 @@ public:
             write_coordinates();
             write_sections();
             write_boundary_conditions();
+            if (extrusion_ != nullptr && extrusion_->periodic) write_periodic_planes();
         } catch (...) {
             cg_close(file_);
             throw;
@@ -78,49 +100,54 @@ private:
         if (status != CG_OK) throw IoError(target_.string(), std::string("cannot write: ") + cg_get_error());
     }
 
+    /// Returns the number of cells across the span, or 1 in the plane.
+    std::size_t layers() const { return extrusion_ != nullptr ? extrusion_->cells : 1; }
+    std::size_t nodes() const { return mesh_.points.size() * (extrusion_ != nullptr ? extrusion_->planes() : 1); }
+
     void write_base() {
-        require(cg_base_write(file_, "Base", 2, variant_.three_coordinates ? 3 : 2, &base_));
-        const auto cells = mesh_.triangles.size() + mesh_.quads.size();
-        cgsize_t sizes[3] = {static_cast<cgsize_t>(mesh_.points.size()), static_cast<cgsize_t>(cells), 0};
-        for (const Marker& marker : mesh_.markers) {
+        const bool in_space = extrusion_ != nullptr;
+        require(cg_base_write(file_, "Base", in_space ? 3 : 2, in_space || variant_.three_coordinates ? 3 : 2, &base_));
+        const std::size_t cells = layers() * (mesh_.triangles.size() + mesh_.quads.size());
+        cgsize_t sizes[3] = {static_cast<cgsize_t>(nodes()), static_cast<cgsize_t>(cells), 0};
+        for (const BoundaryPart& part : boundary_) {
             int family = 0, condition = 0;
-            require(cg_family_write(file_, base_, marker.name.c_str(), &family));
-            require(cg_fambc_write(file_, base_, family, "FamBC", condition_of(marker.kind), &condition));
+            require(cg_family_write(file_, base_, part.name.c_str(), &family));
+            require(cg_fambc_write(file_, base_, family, "FamBC", condition_of(part.kind), &condition));
         }
         require(cg_zone_write(file_, base_, "Zone", sizes, Unstructured, &zone_));
     }
 
     void write_coordinates() {
-        write_axis("CoordinateX", [](Point p) { return p.x; });
-        write_axis("CoordinateY", [](Point p) { return p.y; });
-        if (variant_.three_coordinates) write_axis("CoordinateZ", [](Point) { return 0.0; });
+        const std::size_t n = mesh_.points.size();
+        write_axis("CoordinateX", [&](std::size_t i) { return mesh_.points[i % n].x; });
+        write_axis("CoordinateY", [&](std::size_t i) { return mesh_.points[i % n].y; });
+        if (extrusion_ != nullptr)
+            write_axis("CoordinateZ", [&](std::size_t i) { return extrusion_->height(i / n); });
+        else if (variant_.three_coordinates)
+            write_axis("CoordinateZ", [](std::size_t) { return 0.0; });
     }
     template <class Coordinate>
     void write_axis(const char* name, Coordinate&& coordinate) {
-        // Exponents of mass, length, time, temperature and angle. The unit of length is that of the input, which is
-        // not known.
-        constexpr float length_dimension[5] = {0, 1, 0, 0, 0};
-        std::vector<double> values(mesh_.points.size());
+        std::vector<double> values(nodes());
         core::parallel_for(values.size(), parallel_grain, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) values[i] = coordinate(mesh_.points[i]);
+            for (std::size_t i = begin; i < end; ++i) values[i] = coordinate(i);
         });
         int number = 0;
         require(cg_coord_write(file_, base_, zone_, RealDouble, name, values.data(), &number));
         require(cg_goto(file_, base_, "Zone_t", zone_, "GridCoordinates_t", 1, name, 0, "end"));
         require(cg_dataclass_write(NormalizedByUnknownDimensional));
-        require(cg_exponents_write(RealSingle, length_dimension));
+        require(cg_exponents_write(RealSingle, length_dimension.data()));
     }
 
-    /// Writes a section of elements, numbered from the end of the last section on. vertex(i, k) returns vertex k of
-    /// element i.
+    /// Writes a section of elements, numbered from the end of the last section on. node(i, k) returns node k of element
+    /// i, counted from 0.
     template <class F>
-    void write_section(const std::string& name, ElementType_t type, std::size_t corners, std::size_t count,
-                       F&& vertex) {
+    void write_section(const std::string& name, ElementType_t type, std::size_t corners, std::size_t count, F&& node) {
         std::vector<cgsize_t> nodes(corners * count);
         core::parallel_for(count, parallel_grain, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i)
                 for (std::size_t k = 0; k < corners; ++k)
-                    nodes[corners * i + k] = static_cast<cgsize_t>(vertex(i, k).index() + 1);
+                    nodes[corners * i + k] = static_cast<cgsize_t>(node(i, k) + 1);
         });
         const auto first = next_element_;
         next_element_ += static_cast<cgsize_t>(count);
@@ -129,49 +156,129 @@ private:
                                  &number));
     }
     void write_sections() {
-        for (const CellBlock& block : cell_blocks(mesh_))
-            write_section(section_name(block), block.corners == 3 ? TRI_3 : QUAD_4, block.corners, block.cells.size(),
-                          [&](std::size_t i, std::size_t k) { return block.vertices(mesh_, i)[k]; });
-        for (const Marker& marker : mesh_.markers) {
-            first_bar_.push_back(next_element_);
-            if (marker.edges.empty()) continue;
-            write_section(marker.name, BAR_2, 2, marker.edges.size(),
-                          [&](std::size_t i, std::size_t k) { return k == 0 ? marker.edges[i].a : marker.edges[i].b; });
+        extrusion_ != nullptr ? write_volumes() : write_cells();
+        for (std::size_t m = 0; m < mesh_.markers.size(); ++m) {
+            const std::vector<Segment>& edges = mesh_.markers[m].edges;
+            boundary_[m].first = next_element_;
+            if (edges.empty()) continue;
+            if (extrusion_ != nullptr)
+                write_sides(boundary_[m].name, edges);
+            else
+                write_section(boundary_[m].name, BAR_2, 2, edges.size(),
+                              [&](std::size_t i, std::size_t k) { return (k == 0 ? edges[i].a : edges[i].b).index(); });
+            boundary_[m].last = next_element_ - 1;
         }
+        if (extrusion_ == nullptr) return;
+        write_plane(boundary_[mesh_.markers.size()], false);
+        write_plane(boundary_[mesh_.markers.size() + 1], true);
+    }
+    void write_cells() {
+        for (const CellBlock& block : cell_blocks(mesh_))
+            write_section(section_name(block, false), block.corners == 3 ? TRI_3 : QUAD_4, block.corners,
+                          block.cells.size(),
+                          [&](std::size_t i, std::size_t k) { return block.vertices(mesh_, i)[k].index(); });
+    }
+    void write_volumes() {
+        const std::size_t n = mesh_.points.size();
+        for (const CellBlock& block : cell_blocks(mesh_)) {
+            const std::size_t count = block.cells.size(), corners = block.corners;
+            write_section(section_name(block, true), corners == 3 ? PENTA_6 : HEXA_8, 2 * corners, layers() * count,
+                          [&](std::size_t i, std::size_t k) {
+                              return (i / count + k / corners) * n +
+                                     block.vertices(mesh_, i % count)[k % corners].index();
+                          });
+        }
+    }
+    /// Writes the faces on the edges of a marker. Normals of faces point out of the volume.
+    void write_sides(const std::string& name, const std::vector<Segment>& edges) {
+        write_section(name, QUAD_4, 4, layers() * edges.size(), [&](std::size_t i, std::size_t k) {
+            const Segment& edge = edges[i % edges.size()];
+            const std::size_t plane = i / edges.size() + (k < 2 ? 0 : 1);
+            return plane * mesh_.points.size() + (k == 0 || k == 3 ? edge.a : edge.b).index();
+        });
+    }
+    void write_plane(BoundaryPart& plane, bool is_last) {
+        plane.first = next_element_;
+        const std::size_t shift = is_last ? layers() * mesh_.points.size() : 0;
+        const auto write = [&](const char* shape, ElementType_t type, std::size_t corners, const auto& cells) {
+            if (cells.empty()) return;
+            write_section(plane.name + shape, type, corners, cells.size(), [&](std::size_t i, std::size_t k) {
+                return shift + cells[i].v[is_last ? k : corners - 1 - k].index();
+            });
+        };
+        write("_triangles", TRI_3, 3, mesh_.triangles);
+        write("_quads", QUAD_4, 4, mesh_.quads);
+        plane.last = next_element_ - 1;
     }
 
     void write_boundary_conditions() {
-        for (std::size_t m = 0; m < mesh_.markers.size(); ++m) {
-            const Marker& marker = mesh_.markers[m];
-            if (marker.edges.empty()) continue;
-            const cgsize_t range[2] = {first_bar_[m], first_bar_[m] + static_cast<cgsize_t>(marker.edges.size()) - 1};
+        const std::size_t conditions =
+            extrusion_ != nullptr && extrusion_->periodic ? mesh_.markers.size() : boundary_.size();
+        for (std::size_t m = 0; m < conditions; ++m) {
+            const BoundaryPart& part = boundary_[m];
+            if (part.last < part.first) continue;
+            const cgsize_t range[2] = {part.first, part.last};
             int condition = 0;
-            require(cg_boco_write(file_, base_, zone_, marker.name.c_str(), FamilySpecified, PointRange, 2, range,
+            require(cg_boco_write(file_, base_, zone_, part.name.c_str(), FamilySpecified, PointRange, 2, range,
                                   &condition));
-            require(cg_boco_gridlocation_write(file_, base_, zone_, condition, EdgeCenter));
+            require(cg_boco_gridlocation_write(file_, base_, zone_, condition,
+                                               extrusion_ != nullptr ? FaceCenter : EdgeCenter));
             require(cg_goto(file_, base_, "Zone_t", zone_, "ZoneBC_t", 1, "BC_t", condition, "end"));
-            require(cg_famname_write(marker.name.c_str()));
+            require(cg_famname_write(part.name.c_str()));
         }
+    }
+    /// Connects the nodes of each of the two planes to those of the other.
+    void write_periodic_planes() {
+        const std::size_t n = mesh_.points.size();
+        std::vector<cgsize_t> first(n), last(n);
+        for (std::size_t i = 0; i < n; ++i) {
+            first[i] = static_cast<cgsize_t>(i + 1);
+            last[i] = static_cast<cgsize_t>(layers() * n + i + 1);
+        }
+        const auto connect = [&](const char* name, const std::vector<cgsize_t>& own, const std::vector<cgsize_t>& donor,
+                                 double depth) {
+            const auto count = static_cast<cgsize_t>(n);
+            const float no_turn[3] = {0, 0, 0}, shift[3] = {0, 0, static_cast<float>(depth)};
+            int number = 0;
+            require(cg_conn_write(file_, base_, zone_, name, Vertex, Abutting1to1, PointList, count, own.data(), "Zone",
+                                  Unstructured, PointListDonor, DataTypeNull, count, donor.data(), &number));
+            require(cg_conn_periodic_write(file_, base_, zone_, number, no_turn, no_turn, shift));
+            write_units(number, "RotationCenter", length_dimension);
+            write_units(number, "RotationAngle", angle_dimension);
+            write_units(number, "Translation", length_dimension);
+        };
+        connect(first_plane, first, last, extrusion_->length);
+        connect(last_plane, last, first, -extrusion_->length);
+    }
+    /// Says what the array of a periodic connection counts.
+    void write_units(int connection, const char* array, const std::array<float, 5>& dimension) {
+        require(cg_goto(file_, base_, "Zone_t", zone_, "ZoneGridConnectivity_t", 1, "GridConnectivity_t", connection,
+                        "GridConnectivityProperty_t", 1, "Periodic_t", 1, array, 0, "end"));
+        require(cg_dataclass_write(NormalizedByUnknownDimensional));
+        require(cg_exponents_write(RealSingle, dimension.data()));
     }
 
     MeshView mesh_;
     CgnsVariant variant_;
+    const Extrusion* extrusion_;  ///< null: the mesh is plane
     const fs::path& target_;
     int file_ = 0, base_ = 0, zone_ = 0;
     cgsize_t next_element_ = 1;
-    std::vector<cgsize_t> first_bar_;  ///< per marker: the number of its first bar
+    std::vector<BoundaryPart> boundary_;  ///< the markers, then the planes
 };
 
 /// Returns a generous estimate of the size of the file. HDF5 crashes the program at its end after a failed write, so a
 /// full disk must be noticed before anything is written.
 std::size_t bytes_needed(const MeshView& mesh, CgnsVariant variant) {
-    return (variant.three_coordinates ? 24 : 16) * mesh.points.size() +
-           sizeof(cgsize_t) * (3 * mesh.triangles.size() + 4 * mesh.quads.size() + 2 * count_marker_edges(mesh)) +
-           50'000 * (3 + mesh.markers.size());
+    const std::size_t plane =
+        24 * mesh.points.size() +
+        sizeof(cgsize_t) * (3 * mesh.triangles.size() + 4 * mesh.quads.size() + 2 * count_marker_edges(mesh));
+    return (variant.extrusion != nullptr ? 2 * variant.extrusion->planes() : 1) * plane +
+           50'000 * (8 + mesh.markers.size());
 }
 
 /// Throws UsageError for meshes that a CGNS file cannot hold.
-void require_fit(const MeshView& mesh, const fs::path& file) {
+void require_fit(const MeshView& mesh, const fs::path& file, const Extrusion* extrusion) {
     require_marker_names(mesh.markers, file, "CGNS", "/", core::max_marker_name);
     constexpr std::array<std::string_view, 4> other_nodes{"Zone", "ZoneType", "ZoneBC", "GridCoordinates"};
     for (const Marker& marker : mesh.markers)
@@ -180,10 +287,11 @@ void require_fit(const MeshView& mesh, const fs::path& file) {
                 fmt::format("{}: '{}' is the name of another node, and of a marker", file.string(), marker.name));
     for (const CellBlock& block : cell_blocks(mesh))
         for (const Marker& marker : mesh.markers)
-            if (marker.name == section_name(block))
+            if (marker.name == section_name(block, extrusion != nullptr))
                 throw UsageError(fmt::format("{}: '{}' is the name of a section of cells, and of a marker",
                                              file.string(), marker.name));
-    const std::size_t elements = mesh.triangles.size() + mesh.quads.size() + count_marker_edges(mesh);
+    const std::size_t elements = (extrusion != nullptr ? 2 * extrusion->planes() : 1) *
+                                 (mesh.triangles.size() + mesh.quads.size() + count_marker_edges(mesh));
     if (4 * elements > static_cast<std::size_t>(std::numeric_limits<cgsize_t>::max()))
         throw UsageError(fmt::format("{}: more cells than this CGNS library numbers", file.string()));
 }
@@ -191,7 +299,7 @@ void require_fit(const MeshView& mesh, const fs::path& file) {
 }  // namespace
 
 void write_cgns(const MeshView& mesh, const fs::path& file, CgnsVariant variant) {
-    require_fit(mesh, file);
+    require_fit(mesh, file, variant.extrusion);
     core::write_atomically(file, [&](const fs::path& temporary) {
         core::reserve_room(temporary, file, bytes_needed(mesh, variant));
         const std::lock_guard lock(cgns_lock());

@@ -58,10 +58,19 @@ void write_fluent_variant(const MeshView& mesh, const fs::path& file, std::ostre
     write_fluent(mesh, file, binary, out);
 }
 
+void write_extruded_msh(const MeshView& mesh, const fs::path& file, const WriteOptions& options) {
+    const Extrusion extrusion = extrusion_of(mesh, file, options);
+    core::write_stream_atomically(file, [&](std::ostream& out) { write_msh_extruded(mesh, file, extrusion, out); });
+}
+
 template <bool compressed>
 void write_vtu_variant(const MeshView& mesh, const fs::path& file, const WriteOptions& options) {
+    const Extrusion extrusion = extrusion_of(mesh, file, options);
     core::write_stream_atomically(file, [&](std::ostream& out) {
-        write_vtu(mesh, {compressed, options.wall_distance}, out);
+        if (options.span > 0)
+            write_vtu_extruded(mesh, extrusion, compressed, out);
+        else
+            write_vtu(mesh, {compressed, options.wall_distance}, out);
     });
 }
 
@@ -78,13 +87,18 @@ std::vector<fs::path> openfoam_targets(const fs::path& file, const WriteOptions&
     return files;
 }
 void write_openfoam_parts(const MeshView& mesh, const fs::path& file, const WriteOptions& options) {
-    write_openfoam(mesh, file, options.parts);
+    write_openfoam(mesh, file, extrusion_of(mesh, file, options), options.parts);
+}
+
+void write_thick_ugrid(const MeshView& mesh, const fs::path& file, const WriteOptions& options) {
+    write_fun3d(mesh, file, extrusion_of(mesh, file, options));
 }
 
 #ifdef LAMINA_WITH_CGNS
 template <bool adf, bool three_coordinates>
-void write_cgns_variant(const MeshView& mesh, const fs::path& file, const WriteOptions&) {
-    write_cgns(mesh, file, {adf, three_coordinates});
+void write_cgns_variant(const MeshView& mesh, const fs::path& file, const WriteOptions& options) {
+    const Extrusion extrusion = extrusion_of(mesh, file, options);
+    write_cgns(mesh, file, {adf, three_coordinates, options.span > 0 ? &extrusion : nullptr});
 }
 #endif
 
@@ -112,7 +126,8 @@ std::vector<FormatRow> cgns_rows() {
                         .description = description,
                         .write = write,
                         .files = one_file,
-                        .read = read_cgns});
+                        .read = read_cgns,
+                        .takes_span = true});
     };
     add("cgns", "CGNS, HDF5", write_cgns_variant<false, false>);
     add("cgns-3d", "CGNS, HDF5, with CoordinateZ = 0", write_cgns_variant<false, true>);
@@ -139,9 +154,10 @@ std::vector<FormatRow> msh_rows() {
     add("msh22-binary", "Gmsh MSH 2.2, binary", write_one_file<write_msh_variant<false, true>>);
     rows.push_back({.name = "msh22-extruded",
                     .extensions = {".msh"},
-                    .description = "Gmsh MSH 2.2, ASCII, one cell thick, for gmshToFoam",
-                    .write = write_one_file<write_msh_extruded>,
+                    .description = "Gmsh MSH 2.2, ASCII, in space, for gmshToFoam",
+                    .write = write_extruded_msh,
                     .files = one_file,
+                    .takes_span = true,
                     .one_stream = true});
     return rows;
 }
@@ -157,6 +173,7 @@ std::vector<FormatRow> vtu_rows() {
                         .read = read_one_file<read_vtu>,
                         .read_stored = read_vtu_arrays,
                         .read_sizes = read_vtu_sizes,
+                        .takes_span = true,
                         .one_stream = true});
     };
     add("vtu", "VTK unstructured grid, raw binary, for ParaView", write_vtu_variant<false>);
@@ -175,13 +192,14 @@ std::vector<FormatRow> vtu_rows() {
 FormatRow openfoam_row() {
     return {.name = "openfoam",
             .extensions = {"polyMesh"},
-            .description = "OpenFOAM polyMesh folder, ASCII, one cell thick",
+            .description = "OpenFOAM polyMesh folder, ASCII, in space",
             .write = write_openfoam_parts,
             .files = openfoam_targets,
             .check = check_openfoam_writable,
             .read = read_openfoam,
             .recognizes = holds_openfoam_mesh,
-            .takes_parts = true};
+            .takes_parts = true,
+            .takes_span = true};
 }
 
 std::vector<FormatRow> fluent_rows() {
@@ -212,7 +230,8 @@ std::vector<FormatRow> ugrid_rows() {
                         .read = read_one_file<read_ugrid>});
     };
     add("ugrid", {".ugrid"}, "UGRID, plane, ASCII, with .mapbc", write_files<write_ugrid>);
-    add("fun3d", {".b8.ugrid", ".lb8.ugrid"}, "UGRID for FUN3D, one cell thick, with .mapbc", write_files<write_fun3d>);
+    add("fun3d", {".b8.ugrid", ".lb8.ugrid"}, "UGRID for FUN3D, in space, with .mapbc", write_thick_ugrid);
+    rows.back().takes_span = true;
     return rows;
 }
 

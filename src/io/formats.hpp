@@ -16,6 +16,7 @@
 #include <lamina/solution.hpp>
 
 #include "core/connected_ranks.hpp"
+#include "io/extrusion.hpp"
 #include "io/field_request.hpp"
 #include "io/mesh_layout.hpp"
 #include "io/sizes.hpp"
@@ -54,6 +55,7 @@ struct FormatRow {
     void (*write_shared)(const mesh::MeshParts&, const MeshFrame&, core::ConnectedRanks&,
                          const std::filesystem::path&) = nullptr;
     bool takes_parts = false;  ///< whether WriteOptions::parts counts
+    bool takes_span = false;   ///< whether WriteOptions::span counts
     bool quads = true;         ///< whether the format holds quadrilaterals, too
     bool one_stream = false;   ///< whether standard input and standard output can carry it
 };
@@ -87,6 +89,8 @@ struct VtuVariant {
     bool wall_distance = false;  ///< written as point data
 };
 void write_vtu(const MeshView& mesh, VtuVariant variant, std::ostream& out);
+/// Writes a mesh in space, which is not read back.
+void write_vtu_extruded(const MeshView& mesh, const Extrusion& extrusion, bool compressed, std::ostream& out);
 Mesh read_vtu(const std::string& bytes, const std::filesystem::path& file);
 void read_vtu_arrays(const std::filesystem::path& file, MeshArrays& arrays);
 /// Reads the mesh and these fields.
@@ -110,16 +114,18 @@ struct MshVariant {
     bool binary = false;
 };
 void write_msh(const MeshView& mesh, const std::filesystem::path& file, MshVariant variant, std::ostream& out);
-/// Writes version 2.2, ASCII, one cell thick.
-void write_msh_extruded(const MeshView& mesh, const std::filesystem::path& file, std::ostream& out);
+/// Writes version 2.2, ASCII, in space.
+void write_msh_extruded(const MeshView& mesh, const std::filesystem::path& file, const Extrusion& extrusion,
+                        std::ostream& out);
 /// Reads either version, ASCII or binary.
 Mesh read_msh(const std::string& bytes, const std::filesystem::path& file);
 /// Reads the mesh and the $NodeData that size_array() names.
 PointValues read_msh_sizes(const std::string& bytes, const std::filesystem::path& file);
 
 struct CgnsVariant {
-    bool adf = false;                ///< writes the older container in place of HDF5
-    bool three_coordinates = false;  ///< writes CoordinateZ = 0, for readers that accept no plane meshes
+    bool adf = false;                      ///< writes the older container in place of HDF5
+    bool three_coordinates = false;        ///< writes CoordinateZ = 0, for readers that accept no plane meshes
+    const Extrusion* extrusion = nullptr;  ///< writes a mesh in space, which is not read back; null: a plane one
 };
 void write_cgns(const MeshView& mesh, const std::filesystem::path& file, CgnsVariant variant);
 Mesh read_cgns(const std::filesystem::path& file);
@@ -135,7 +141,8 @@ bool holds_fluent_mesh(const std::filesystem::path& file);
 inline constexpr const char* front_and_back = "frontAndBack";
 void check_openfoam_writable(const std::filesystem::path& file);
 /// Writes the folder and, for more than one part, the file of the parts beside it.
-void write_openfoam(const MeshView& mesh, const std::filesystem::path& file, std::size_t parts);
+void write_openfoam(const MeshView& mesh, const std::filesystem::path& file, const Extrusion& extrusion,
+                    std::size_t parts);
 /// Returns the file beside the folder that says which part a cell belongs to, for decomposePar with the method `manual`.
 std::filesystem::path openfoam_parts_file(const std::filesystem::path& file);
 Mesh read_openfoam(const std::filesystem::path& file);
@@ -158,8 +165,8 @@ bool holds_openfoam_mesh(const std::filesystem::path& file);
 std::vector<std::filesystem::path> ugrid_files(const std::filesystem::path& file);
 /// Writes a plane mesh in ASCII.
 void write_ugrid(const MeshView& mesh, const std::filesystem::path& file);
-/// Writes a mesh one cell thick: big-endian for .b8.ugrid, little-endian for .lb8.ugrid, else in ASCII.
-void write_fun3d(const MeshView& mesh, const std::filesystem::path& file);
+/// Writes a mesh in space: big-endian for .b8.ugrid, little-endian for .lb8.ugrid, else in ASCII.
+void write_fun3d(const MeshView& mesh, const std::filesystem::path& file, const Extrusion& extrusion);
 /// Reads what write_ugrid() and write_fun3d() write.
 Mesh read_ugrid(const std::string& bytes, const std::filesystem::path& file);
 

@@ -25,12 +25,20 @@ Mesh read_mesh(const fs::path& file, const ReadOptions& options) {
 
 void check_writable(const fs::path& file, const WriteOptions& options) {
     const FormatRow& format = find_format(file, options.format);
+    require_span(options);
+    if (options.span > 0 && !format.takes_span) {
+        std::string names;
+        for (const FormatRow& row : format_table())
+            if (row.takes_span) names += (names.empty() ? "" : ", ") + std::string(row.name);
+        throw UsageError(fmt::format("format '{}' holds plane meshes: those with a span are {}", format.name, names));
+    }
     if (format.check != nullptr) return format.check(file);
     for (const fs::path& written : format.files(file, options)) check_folder_writable(written);
 }
 
 void require_streamable(const fs::path& file, const WriteOptions& options) {
     const FormatRow& format = find_format(file, options.format);
+    if (options.span > 0) throw UsageError("a mesh with a span is written as a whole");
     if (format.layout != nullptr) return;
     std::string names;
     for (const FormatRow& row : format_table())
@@ -39,7 +47,8 @@ void require_streamable(const fs::path& file, const WriteOptions& options) {
 }
 
 void require_shareable(const fs::path& file, const WriteOptions& options) {
-    if (find_format(file, options.format).write_shared == nullptr) require_streamable(file, options);
+    if (options.span > 0 || find_format(file, options.format).write_shared == nullptr)
+        require_streamable(file, options);
 }
 
 std::unique_ptr<MeshSink> open_mesh_sink(const fs::path& file, const WriteOptions& options) {

@@ -1,9 +1,9 @@
-// The thickness of meshes of OpenFOAM.
+// The thickness of meshes of OpenFOAM, and of others in space.
 #pragma once
 
 namespace lamina::io {
 
-/// The thickness of OpenFOAM's meshes, which are one cell thick, in units of the mesh.
+/// The thickness of meshes in space, in units of the mesh, unless a span is given.
 inline constexpr double openfoam_span = 1;
 
 }  // namespace lamina::io

@@ -1,16 +1,17 @@
 // Writes OpenFOAM's polyMesh: a folder with the files points, faces, owner, neighbour and boundary, in ASCII. The mesh
-// lies in the x-y plane and is one cell thick in z, with the patch `frontAndBack` of type empty. Source: OpenFOAM user
-// guide, "Mesh description".
+// stands on the x-y plane (extrusion.hpp). Source: OpenFOAM user guide, "Mesh description".
 //
 //    b'------a'       A side face stands on the edge a -> b of its owner, the cell on the left of the edge. Its corners
-//    |       |        are a, b, b', a', so that its normal points out of the owner. The points a, b ... with z = 0 are
-//    b-------a        numbered as in the mesh; the points a', b' ... with z = openfoam_span follow.
+//    |       |        are a, b, b', a', so that its normal points out of the owner. The points a', b' ... are those of
+//    b-------a        the next plane.
 //
-// Internal faces come first, in upper-triangular order: by owner (the lower of the two cells), then by neighbour. The
-// patches follow: the faces of each marker in the order of its edges, then the back (z = 0) of all cells, then the
-// front.
+// Internal faces come first, in upper-triangular order: by owner (the lower of the two cells), then by neighbour, which
+// for each cell but those at the last plane ends with the face to the next plane. The patches follow: the faces of each
+// marker, from plane to plane in the order of its edges, then the back of all cells at the first plane, then the front of
+// those at the last one. For plane flow both are one patch, `frontAndBack`, of type empty.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -21,10 +22,10 @@
 #include <lamina/io.hpp>
 
 #include "core/atomic_file.hpp"
+#include "io/extrusion.hpp"
 #include "io/formats.hpp"
 #include "io/mesh_faces.hpp"
 #include "io/mesh_parts.hpp"
-#include "io/openfoam_span.hpp"
 #include "io/text_output.hpp"
 #include "mesh/partition.hpp"
 
@@ -63,23 +64,78 @@ const char* patch_type(MarkerKind kind) {
 
 class PolyMeshWriter {
 public:
-    PolyMeshWriter(const MeshView& mesh, const fs::path& file)
-        : mesh_(mesh), file_(file), faces_(find_faces(mesh, file, "OpenFOAM")) {}
+    PolyMeshWriter(const MeshView& mesh, const fs::path& file, const Extrusion& extrusion)
+        : mesh_(mesh), file_(file), extrusion_(extrusion), faces_(find_faces(mesh, file, "OpenFOAM")) {
+        if (extrusion.cells > 1) order_faces();
+    }
 
     void write(const fs::path& folder) const {
-        const std::size_t n = mesh_.points.size(), cells = faces_.edges.cells();
-        const std::size_t faces = faces_.faces.size() + 2 * cells;
-        const std::string note =
-            fmt::format("    note        \"nPoints:{}  nCells:{}  nFaces:{}  nInternalFaces:{}\";\n", 2 * n, cells,
-                        faces, faces_.internal);
+        const std::string note = fmt::format(
+            "    note        \"nPoints:{}  nCells:{}  nFaces:{}  nInternalFaces:{}\";\n",
+            extrusion_.planes() * mesh_.points.size(), extrusion_.cells * cells(), all_faces(), internal_faces());
         write_part(folder, "points", "vectorField", "", [&](std::ostream& out) { write_points(out); });
-        write_part(folder, "faces", "faceList", "", [&](std::ostream& out) { write_faces(out, faces); });
-        write_part(folder, "owner", "labelList", note, [&](std::ostream& out) { write_owners(out, faces); });
+        write_part(folder, "faces", "faceList", "", [&](std::ostream& out) { write_faces(out); });
+        write_part(folder, "owner", "labelList", note, [&](std::ostream& out) { write_owners(out); });
         write_part(folder, "neighbour", "labelList", note, [&](std::ostream& out) { write_neighbours(out); });
         write_part(folder, "boundary", "polyBoundaryMesh", "", [&](std::ostream& out) { write_patches(out); });
     }
 
 private:
+    /// A face of the mesh: a side of the plane mesh between a plane and the next, or a cell of it in a plane.
+    struct FoamFace {
+        bool is_side;
+        std::size_t number;  ///< of the side among the faces of the plane mesh, or of the cell
+        std::size_t plane;   ///< the lower plane of a side
+    };
+
+    std::size_t cells() const { return faces_.edges.cells(); }
+    std::size_t internal_faces() const { return extrusion_.cells * (faces_.internal + cells()) - cells(); }
+    std::size_t side_patches() const { return extrusion_.cells * (faces_.faces.size() - faces_.internal); }
+    std::size_t all_faces() const { return internal_faces() + side_patches() + 2 * cells(); }
+
+    /// Orders the internal sides between two planes and the cells in the upper one by their owners.
+    void order_faces() {
+        order_.reserve(faces_.internal + cells());
+        std::size_t side = 0;
+        for (std::size_t cell = 0; cell < cells(); ++cell) {
+            for (; side < faces_.internal && faces_.owner(side) == cell; ++side)
+                order_.push_back(static_cast<std::uint32_t>(side));
+            order_.push_back(static_cast<std::uint32_t>(faces_.internal + cell));
+        }
+    }
+    /// Returns an internal face.
+    FoamFace internal_face(std::size_t face) const {
+        const std::size_t between_planes = faces_.internal + cells(), plane = face / between_planes;
+        if (plane + 1 == extrusion_.cells) return {true, face % between_planes, plane};
+        const std::size_t number = order_[face % between_planes];
+        if (number < faces_.internal) return {true, number, plane};
+        return {false, number - faces_.internal, plane + 1};
+    }
+    FoamFace face_at(std::size_t face) const {
+        if (face < internal_faces()) return internal_face(face);
+        face -= internal_faces();
+        if (face >= side_patches()) {
+            face -= side_patches();
+            return {false, face % cells(), face < cells() ? 0 : extrusion_.cells};
+        }
+        std::size_t first = faces_.internal;
+        for (const Marker& marker : mesh_.markers) {
+            const std::size_t edges = marker.edges.size();
+            if (face < extrusion_.cells * edges) return {true, first + face % edges, face / edges};
+            face -= extrusion_.cells * edges;
+            first += edges;
+        }
+        return {true, first, 0};
+    }
+    /// Returns the cell of which the normal of the face points out.
+    std::size_t owner(const FoamFace& face) const {
+        if (face.is_side) return face.plane * cells() + faces_.owner(face.number);
+        return (face.plane == 0 ? 0 : face.plane - 1) * cells() + face.number;
+    }
+    std::size_t neighbour(const FoamFace& face) const {
+        return face.plane * cells() + (face.is_side ? faces_.neighbour(face.number) : face.number);
+    }
+
     void write_part(const fs::path& folder, const char* name, const char* type, const std::string& note,
                     const std::function<void(std::ostream&)>& write) const {
         core::write_stream(folder / name, file_, [&](std::ostream& out) {
@@ -90,75 +146,90 @@ private:
 
     void write_points(std::ostream& out) const {
         const std::size_t n = mesh_.points.size();
-        const std::string front = fmt::format("{})", io::openfoam_span);
-        write_list(out, 2 * n, [&](LineText& line, std::size_t i) {
-            line.tight("(") << mesh_.points[i < n ? i : i - n] << (i < n ? std::string_view("0)") : front);
-        });
+        std::vector<std::string> heights;
+        for (std::size_t k = 0; k < extrusion_.planes(); ++k)
+            heights.push_back(fmt::format("{})", extrusion_.height(k)));
+        write_list(out, extrusion_.planes() * n,
+                   [&](LineText& line, std::size_t i) { line.tight("(") << mesh_.points[i % n] << heights[i / n]; });
     }
-    void write_faces(std::ostream& out, std::size_t faces) const {
-        const std::size_t cells = faces_.edges.cells(), sides = faces_.faces.size();
-        write_list(out, faces, [&](LineText& line, std::size_t f) {
-            if (f < sides)
-                put_side(line, f);
-            else if (f < sides + cells)
-                put_back(line, f - sides);
+    void write_faces(std::ostream& out) const {
+        write_list(out, all_faces(), [&](LineText& line, std::size_t f) {
+            const FoamFace face = face_at(f);
+            if (face.is_side)
+                put_side(line, face);
+            else if (face.plane == 0)
+                put_back(line, face.number);
             else
-                put_front(line, f - sides - cells);
+                put_front(line, face);
             line.take_back() << ")";
         });
     }
-    void put_side(LineText& line, std::size_t side) const {
-        const std::size_t n = mesh_.points.size();
-        const std::size_t a = faces_.origin(side).index(), b = faces_.target(side).index();
+    void put_side(LineText& line, const FoamFace& face) const {
+        const std::size_t n = mesh_.points.size(), first = face.plane * n;
+        const std::size_t a = first + faces_.origin(face.number).index(),
+                          b = first + faces_.target(face.number).index();
         line.tight("4(") << a << b << n + b << n + a;
     }
+    /// Puts a face whose normal points down. Where it is periodic, it begins with the same corner as the one above.
     void put_back(LineText& line, std::size_t cell) const {
-        line.tight(faces_.edges.corners(cell) == 3 ? "3(" : "4(");
-        for (std::size_t k = faces_.edges.corners(cell); k-- > 0;) line << faces_.edges.corner(cell, k).index();
+        const std::size_t corners = faces_.edges.corners(cell), first = extrusion_.periodic ? 0 : corners - 1;
+        line.tight(corners == 3 ? "3(" : "4(");
+        for (std::size_t k = 0; k < corners; ++k)
+            line << faces_.edges.corner(cell, (first + corners - k) % corners).index();
     }
-    void put_front(LineText& line, std::size_t cell) const {
-        line.tight(faces_.edges.corners(cell) == 3 ? "3(" : "4(");
-        for (std::size_t k = 0; k < faces_.edges.corners(cell); ++k)
-            line << mesh_.points.size() + faces_.edges.corner(cell, k).index();
+    void put_front(LineText& line, const FoamFace& face) const {
+        line.tight(faces_.edges.corners(face.number) == 3 ? "3(" : "4(");
+        for (std::size_t k = 0; k < faces_.edges.corners(face.number); ++k)
+            line << face.plane * mesh_.points.size() + faces_.edges.corner(face.number, k).index();
     }
-    void write_owners(std::ostream& out, std::size_t faces) const {
-        const std::size_t cells = faces_.edges.cells(), sides = faces_.faces.size();
-        write_list(out, faces,
-                   [&](LineText& line, std::size_t f) { line << (f < sides ? faces_.owner(f) : (f - sides) % cells); });
+    void write_owners(std::ostream& out) const {
+        write_list(out, all_faces(), [&](LineText& line, std::size_t f) { line << owner(face_at(f)); });
     }
     void write_neighbours(std::ostream& out) const {
-        write_list(out, faces_.internal, [&](LineText& line, std::size_t f) { line << faces_.neighbour(f); });
+        write_list(out, internal_faces(), [&](LineText& line, std::size_t f) { line << neighbour(internal_face(f)); });
     }
     void write_patches(std::ostream& out) const {
-        const auto write_patch = [&](const std::string& name, const char* type, std::size_t faces, std::size_t start) {
+        std::size_t start = internal_faces();
+        const auto write_patch = [&](const std::string& name, const char* type, std::size_t faces,
+                                     const std::string& more = {}) {
             out << fmt::format(
                 "    {}\n    {{\n        type            {};\n        nFaces          {};\n        startFace       "
-                "{};\n"
+                "{};\n{}"
                 "    }}\n",
-                name, type, faces, start);
+                name, type, faces, start, more);
+            start += faces;
         };
-        out << mesh_.markers.size() + 1 << "\n(\n";
-        std::size_t start = faces_.internal;
-        for (const Marker& marker : mesh_.markers) {
-            write_patch(marker.name, patch_type(marker.kind), marker.edges.size(), start);
-            start += marker.edges.size();
+        out << mesh_.markers.size() + (extrusion_.is_plane_flow() ? 1 : 2) << "\n(\n";
+        for (const Marker& marker : mesh_.markers)
+            write_patch(marker.name, patch_type(marker.kind), extrusion_.cells * marker.edges.size());
+        if (extrusion_.is_plane_flow()) {
+            write_patch(front_and_back, "empty", 2 * cells());
+        } else {
+            const auto other = [&](const char* plane) {
+                return extrusion_.periodic ? fmt::format("        neighbourPatch  {};\n", plane) : std::string();
+            };
+            const char* const type = extrusion_.periodic ? "cyclic" : "symmetryPlane";
+            write_patch(first_plane, type, cells(), other(last_plane));
+            write_patch(last_plane, type, cells(), other(first_plane));
         }
-        write_patch(front_and_back, "empty", 2 * faces_.edges.cells(), start);
         out << ")\n";
     }
 
     MeshView mesh_;
     const fs::path& file_;
-    MeshFaces faces_;  ///< the side faces
+    const Extrusion& extrusion_;
+    MeshFaces faces_;  ///< those of the plane mesh
+    std::vector<std::uint32_t>
+        order_;  ///< internal sides, and behind their number cells, for more than one cell across
 };
 
-/// Writes the part of each cell.
-void write_parts(const MeshView& mesh, std::size_t parts, const fs::path& target) {
+/// Writes the part of each cell of so many copies of the mesh.
+void write_parts(const MeshView& mesh, std::size_t copies, std::size_t parts, const fs::path& target) {
     const std::vector<std::uint32_t> part_of_cell = mesh::partition_cells(mesh, parts);
     core::write_stream_atomically(target, [&](std::ostream& out) {
         out << foam_header("labelList", "", "constant", "cellDecomposition");
-        write_list(out, part_of_cell.size(),
-                   [&](LineText& line, std::size_t c) { line << std::size_t{part_of_cell[c]}; });
+        write_list(out, copies * part_of_cell.size(),
+                   [&](LineText& line, std::size_t c) { line << std::size_t{part_of_cell[c % part_of_cell.size()]}; });
     });
 }
 
@@ -193,11 +264,11 @@ void check_openfoam_writable(const fs::path& file) {
     check_folder_writable(outermost_missing == folder ? folder.parent_path() / "points" : outermost_missing);
 }
 
-void write_openfoam(const MeshView& mesh, const fs::path& file, std::size_t parts) {
+void write_openfoam(const MeshView& mesh, const fs::path& file, const Extrusion& extrusion, std::size_t parts) {
     require_legal_marker_names(mesh.markers, file, "OpenFOAM");
-    const PolyMeshWriter writer(mesh, file);
+    const PolyMeshWriter writer(mesh, file, extrusion);
     core::write_folder_atomically(poly_mesh_folder(file), [&](const fs::path& folder) { writer.write(folder); });
-    if (parts > 1) write_parts(mesh, parts, openfoam_parts_file(file));
+    if (parts > 1) write_parts(mesh, extrusion.cells, parts, openfoam_parts_file(file));
 }
 
 }  // namespace lamina::io

@@ -4,10 +4,9 @@
 // Plane files hold the nodes as x y 0, the triangles, the quadrilaterals, the number 1 for each of them, and then the
 // boundary: the number of its edges, and two nodes and the number of the marker for each edge.
 //
-// Files for FUN3D hold a mesh one cell thick in ASCII or binary. The airfoil lies in the x-z plane, at y = 0 and y = 1.
-// For n points, point i of the mesh becomes the nodes i + 1 at y = 0 and n + i + 1 at y = 1. Prisms and hexahedra stand
-// on the face at y = 1, whose normal points to y = 0. Normals of the boundary's faces point into the domain. Markers
-// are numbered from 1 on; the planes y = 0 and y = 1 follow.
+// Files for FUN3D hold a mesh in space in ASCII or binary (extrusion.hpp). The airfoil lies in planes of constant y, the
+// first at y = 0. Prisms and hexahedra stand on the face with the higher y, whose normal points to the other. Normals of the boundary's faces point into the domain. Markers
+// are numbered from 1 on; the first and the last plane follow.
 //
 // The .mapbc file beside either holds the number, the code and the name of each marker.
 #pragma once
@@ -22,6 +21,7 @@ enum MapbcCode : int {
     mapbc_wall = 3000,
     mapbc_viscous_wall = 4000,
     mapbc_far_field = 5000,
+    mapbc_periodic = 6100,
     mapbc_symmetry_x = 6661,
     mapbc_symmetry_y = 6662,
     mapbc_symmetry_z = 6663

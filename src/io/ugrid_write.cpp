@@ -1,4 +1,4 @@
-// Writes UGRID files, plane or one cell thick, with their .mapbc. ugrid.hpp describes the format.
+// Writes UGRID files, plane or in space, with their .mapbc. ugrid.hpp describes the format.
 #include <fmt/format.h>
 
 #include <array>
@@ -39,14 +39,16 @@ MapbcCode code_of(const MeshView& mesh, const Marker& marker) {
     return mapbc_unknown;  // the user has to fill in the condition
 }
 
-void write_mapbc(const MeshView& mesh, bool with_planes, std::ostream& out) {
-    out << mesh.markers.size() + (with_planes ? 2 : 0) << '\n';
+/// Writes the conditions of the markers and, of a mesh in space, of the planes.
+void write_mapbc(const MeshView& mesh, const Extrusion* extrusion, std::ostream& out) {
+    out << mesh.markers.size() + (extrusion != nullptr ? 2 : 0) << '\n';
     std::size_t number = 0;
     for (const Marker& marker : mesh.markers)
         out << fmt::format("{} {} {}\n", ++number, int{code_of(mesh, marker)}, marker.name);
-    if (!with_planes) return;
-    out << fmt::format("{} {} y0\n", ++number, int{mapbc_symmetry_y});
-    out << fmt::format("{} {} y1\n", ++number, int{mapbc_symmetry_y});
+    if (extrusion == nullptr) return;
+    const MapbcCode code = extrusion->periodic ? mapbc_periodic : mapbc_symmetry_y;
+    out << fmt::format("{} {} y0\n", ++number, int{code});
+    out << fmt::format("{} {} y1\n", ++number, int{code});
 }
 
 void write_plane(const MeshView& mesh, std::ostream& out) {
@@ -91,11 +93,11 @@ private:
     UgridEncoding encoding_;
 };
 
-/// Writes a mesh one cell thick.
+/// Writes a mesh in space.
 class ThickMeshWriter {
 public:
-    ThickMeshWriter(const MeshView& mesh, UgridEncoding encoding, std::ostream& out)
-        : mesh_(mesh), points_(mesh.points.size()), writer_(out, encoding) {}
+    ThickMeshWriter(const MeshView& mesh, const Extrusion& extrusion, UgridEncoding encoding, std::ostream& out)
+        : mesh_(mesh), extrusion_(extrusion), points_(mesh.points.size()), writer_(out, encoding) {}
 
     void write() {
         write_counts();
@@ -111,17 +113,18 @@ public:
 private:
     void write_counts() {
         const std::size_t triangles = mesh_.triangles.size(), quads = mesh_.quads.size();
-        const std::array<std::size_t, 7> counts{2 * points_, 2 * triangles, count_marker_edges(mesh_) + 2 * quads, 0, 0,
-                                                triangles,   quads};
+        const std::size_t cells = extrusion_.cells, sides = cells * count_marker_edges(mesh_);
+        const std::array<std::size_t, 7> counts{
+            extrusion_.planes() * points_, 2 * triangles, sides + 2 * quads, 0, 0, cells * triangles, cells * quads};
         writer_.write_list<std::size_t>(1, counts.size(), [&](std::size_t, auto emit) {
             for (const std::size_t count : counts) emit(count);
         });
     }
     void write_nodes() {
-        writer_.write_list<double>(2 * points_, 3, [&](std::size_t i, auto emit) {
-            const Point p = mesh_.points[i < points_ ? i : i - points_];
+        writer_.write_list<double>(extrusion_.planes() * points_, 3, [&](std::size_t i, auto emit) {
+            const Point p = mesh_.points[i % points_];
             emit(p.x);
-            emit(i < points_ ? 0.0 : 1.0);
+            emit(extrusion_.height(i / points_));
             emit(p.y);
         });
     }
@@ -129,7 +132,7 @@ private:
     template <class Cell>
     static constexpr std::size_t corners_of = std::extent_v<decltype(Cell::v)>;
 
-    /// Writes the faces at y = 0, which run clockwise in x-z, and those at y = 1, which run counter-clockwise.
+    /// Writes the faces at the first plane, which run clockwise in x-z, and those at the last, which run the other way.
     template <class Cell>
     void write_plane_faces(std::span<const Cell> cells) {
         constexpr std::size_t corners = corners_of<Cell>;
@@ -137,12 +140,15 @@ private:
             for (std::size_t k = corners; k-- > 0;) emit(cells[i].v[k].index() + 1);
         });
         writer_.write_list<std::size_t>(cells.size(), corners, [&](std::size_t i, auto emit) {
-            for (std::size_t k = 0; k < corners; ++k) emit(points_ + cells[i].v[k].index() + 1);
+            for (std::size_t k = 0; k < corners; ++k) emit(extrusion_.cells * points_ + cells[i].v[k].index() + 1);
         });
     }
     void write_side_faces(const Marker& marker) {
-        writer_.write_list<std::size_t>(marker.edges.size(), 4, [&](std::size_t i, auto emit) {
-            const std::size_t a = marker.edges[i].a.index() + 1, b = marker.edges[i].b.index() + 1;
+        const std::size_t edges = marker.edges.size();
+        writer_.write_list<std::size_t>(extrusion_.cells * edges, 4, [&](std::size_t i, auto emit) {
+            const Segment& edge = marker.edges[i % edges];
+            const std::size_t first = i / edges * points_ + 1;
+            const std::size_t a = first + edge.a.index(), b = first + edge.b.index();
             for (const std::size_t node : {a, b, points_ + b, points_ + a}) emit(node);
         });
     }
@@ -155,41 +161,50 @@ private:
         const std::size_t markers = mesh_.markers.size();
         write(triangles, markers + 1);
         write(triangles, markers + 2);
-        for (std::size_t m = 0; m < markers; ++m) write(mesh_.markers[m].edges.size(), m + 1);
+        for (std::size_t m = 0; m < markers; ++m) write(extrusion_.cells * mesh_.markers[m].edges.size(), m + 1);
         write(quads, markers + 1);
         write(quads, markers + 2);
     }
     template <class Cell>
     void write_volumes(std::span<const Cell> cells) {
         constexpr std::size_t corners = corners_of<Cell>;
-        writer_.write_list<std::size_t>(cells.size(), 2 * corners, [&](std::size_t i, auto emit) {
-            for (const std::size_t shift : {points_, std::size_t{0}})
-                for (std::size_t k = 0; k < corners; ++k) emit(shift + cells[i].v[k].index() + 1);
+        writer_.write_list<std::size_t>(extrusion_.cells * cells.size(), 2 * corners, [&](std::size_t i, auto emit) {
+            const Cell& cell = cells[i % cells.size()];
+            const std::size_t first = i / cells.size() * points_;
+            for (const std::size_t shift : {first + points_, first})
+                for (std::size_t k = 0; k < corners; ++k) emit(shift + cell.v[k].index() + 1);
         });
     }
 
     MeshView mesh_;
+    const Extrusion& extrusion_;
     std::size_t points_;
     NumberWriter writer_;
 };
 
-void write_with_mapbc(const MeshView& mesh, const fs::path& file, bool thick) {
+/// Writes a plane mesh, or one in space.
+void write_with_mapbc(const MeshView& mesh, const fs::path& file, const Extrusion* extrusion) {
     require_legal_marker_names(mesh.markers, file, "UGRID");
     if (mesh.points.size() > std::numeric_limits<std::int32_t>::max() / 2)
         throw UsageError(fmt::format("{}: UGRID numbers no more than 2^31 nodes", file.string()));
     const std::vector<fs::path> targets = ugrid_files(file);
     core::write_files_atomically(targets, [&](std::span<const fs::path> temporaries) {
         core::write_stream(temporaries[0], targets[0], [&](std::ostream& out) {
-            thick ? ThickMeshWriter(mesh, encoding_of(file), out).write() : write_plane(mesh, out);
+            if (extrusion != nullptr)
+                ThickMeshWriter(mesh, *extrusion, encoding_of(file), out).write();
+            else
+                write_plane(mesh, out);
         });
-        core::write_stream(temporaries[1], targets[1], [&](std::ostream& out) { write_mapbc(mesh, thick, out); });
+        core::write_stream(temporaries[1], targets[1], [&](std::ostream& out) { write_mapbc(mesh, extrusion, out); });
     });
 }
 
 }  // namespace
 
-void write_ugrid(const MeshView& mesh, const fs::path& file) { write_with_mapbc(mesh, file, false); }
+void write_ugrid(const MeshView& mesh, const fs::path& file) { write_with_mapbc(mesh, file, nullptr); }
 
-void write_fun3d(const MeshView& mesh, const fs::path& file) { write_with_mapbc(mesh, file, true); }
+void write_fun3d(const MeshView& mesh, const fs::path& file, const Extrusion& extrusion) {
+    write_with_mapbc(mesh, file, &extrusion);
+}
 
 }  // namespace lamina::io

@@ -11,7 +11,9 @@ enum VtkCellType : std::uint8_t {
     vtk_line = 3,
     vtk_poly_line = 4,
     vtk_triangle = 5,
-    vtk_quad = 9
+    vtk_quad = 9,
+    vtk_hexahedron = 12,
+    vtk_wedge = 13
 };
 
 }  // namespace lamina::io

@@ -100,6 +100,47 @@ TEST(Cgns, HoldsEverythingThatSolversLookFor) {
     }
 }
 
+TEST(Cgns, HoldsMeshesInSpace) {
+    const TemporaryFolder folder;
+    for (const SpanEnds ends : {SpanEnds::symmetry, SpanEnds::periodic}) {
+        write_mesh(tiny(), folder / "m.cgns", {.span = 0.5, .span_cells = 3, .span_ends = ends});
+        int file = 0, count = 0, cell_dimension = 0, dimension = 0;
+        ASSERT_EQ(cg_open((folder / "m.cgns").c_str(), CG_MODE_READ, &file), CG_OK) << cg_get_error();
+        char name[33];
+        ASSERT_EQ(cg_base_read(file, 1, name, &cell_dimension, &dimension), CG_OK);
+        EXPECT_EQ(cell_dimension, 3);
+        cgsize_t sizes[9];
+        ASSERT_EQ(cg_zone_read(file, 1, 1, name, sizes), CG_OK);
+        EXPECT_EQ(sizes[0], 20);
+        EXPECT_EQ(sizes[1], 6);
+        const std::vector<std::tuple<std::string, ElementType_t, cgsize_t, cgsize_t>> sections{
+            {"fluid_prisms", PENTA_6, 1, 3}, {"fluid_hexahedra", HEXA_8, 4, 6}, {"wall", QUAD_4, 7, 12},
+            {"farfield", QUAD_4, 13, 21},    {"z0_triangles", TRI_3, 22, 22},   {"z0_quads", QUAD_4, 23, 23},
+            {"z1_triangles", TRI_3, 24, 24}, {"z1_quads", QUAD_4, 25, 25}};
+        ASSERT_EQ(cg_nsections(file, 1, 1, &count), CG_OK);
+        ASSERT_EQ(count, 8);
+        for (int s = 1; s <= count; ++s) {
+            ElementType_t elements;
+            cgsize_t first = 0, last = 0;
+            int boundary_elements = 0, parents = 0;
+            ASSERT_EQ(cg_section_read(file, 1, 1, s, name, &elements, &first, &last, &boundary_elements, &parents),
+                      CG_OK);
+            EXPECT_EQ(std::tuple(std::string(name), elements, first, last), sections[std::size_t(s - 1)]);
+        }
+        const bool periodic = ends == SpanEnds::periodic;
+        ASSERT_EQ(cg_nbocos(file, 1, 1, &count), CG_OK);
+        EXPECT_EQ(count, periodic ? 2 : 4);
+        ASSERT_EQ(cg_nconns(file, 1, 1, &count), CG_OK);
+        EXPECT_EQ(count, periodic ? 2 : 0);
+        if (periodic) {
+            float center[3], angle[3], shift[3];
+            ASSERT_EQ(cg_conn_periodic_read(file, 1, 1, 1, center, angle, shift), CG_OK);
+            EXPECT_EQ(shift[2], 0.5F);
+        }
+        EXPECT_EQ(cg_close(file), CG_OK);
+    }
+}
+
 TEST(Cgns, RefusesMarkersItCannotName) {
     const TemporaryFolder folder;
     for (const std::string name :
