@@ -60,6 +60,32 @@ TEST(Convert, SetsKinds) {
 }
 
 // Names come from other programs, and must suit those that read the file next.
+/// Returns the last point of a polyMesh.
+std::string last_point(const TemporaryFolder& folder, const std::string& name) {
+    const std::string points = folder.read(name + "/constant/polyMesh/points");
+    const std::size_t begin = points.rfind("\n(") + 1;
+    return points.substr(begin, points.find('\n', begin) - begin);
+}
+
+TEST(Convert, MakesMeshesInSpace) {
+    const TemporaryFolder folder;
+    write_mesh(annulus(), folder / "m.su2");
+    auto run = run_lamina(folder, {"convert", "m.su2", "c", "--format", "openfoam", "--span", "0.25", "--span-cells",
+                                   "3", "--span-ends", "periodic"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_TRUE(last_point(folder, "c").ends_with(" 0.25)")) << last_point(folder, "c");
+    EXPECT_NE(folder.read("c/constant/polyMesh/boundary").find("cyclic;"), std::string::npos);
+    expect_refused(folder, {"convert", "m.su2", "n.su2", "--span", "1"}, 2, "holds plane meshes");
+    expect_refused(folder, {"convert", "m.su2", "n.vtu", "--span-cells", "2"}, 2, "need the span");
+    expect_refused(folder, {"mesh", "naca:0012:40", "-o", "n.vtu", "--stream", "--span", "1"}, 2, "span");
+
+    // In chords, which --chord says.
+    run = run_lamina(folder, {"mesh", "naca:0012:40", "--no-layers", "--far-field", "5", "--quiet", "--chord", "2",
+                              "--span", "0.25", "--format", "openfoam", "-o", "d"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_TRUE(last_point(folder, "d").ends_with(" 0.5)")) << last_point(folder, "d");
+}
+
 TEST(Convert, GivesMarkersNamesThatEveryFormatTakes) {
     const TemporaryFolder folder;
     Mesh mesh = annulus();
