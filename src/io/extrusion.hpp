@@ -1,7 +1,7 @@
 // Meshes in space: a plane mesh in several copies one above the other, with prisms and hexahedra between them.
 //
-// For n points, point i of the plane mesh becomes the nodes k n + i of the planes k = 0 ... cells. Likewise for m cells,
-// cell c becomes the cells k m + c between the planes k and k + 1.
+// For n points, point i of the plane mesh becomes the nodes k n + i of the planes k = 0 ... cells. Likewise for m
+// cells, cell c becomes the cells k m + c between the planes k and k + 1.
 #pragma once
 
 #include <cstddef>

@@ -1,14 +1,14 @@
-// Parts of Ansys Fluent's mesh format that its writer and its reader share. Sources: Ansys, "Mesh File Format" (appendix
-// of the user's guide); what OpenFOAM's fluentMeshToFoam, VTK's vtkFLUENTReader and meshio read.
+// Parts of Ansys Fluent's mesh format that its writer and its reader share. Sources: Ansys, "Mesh File Format"
+// (appendix of the user's guide); what OpenFOAM's fluentMeshToFoam, VTK's vtkFLUENTReader and meshio read.
 //
-// A file is a list of sections in parentheses, each with its number first: 2 the dimension, 10 nodes, 12 cells, 13 faces,
-// 45 (or 39) the type and the name of a zone. A header says which nodes, cells or faces of which zone follow; zone 0
-// declares how many there are in all. Numbers in headers and lists are hexadecimal and count from 1, but those of zones
-// in section 45 are decimal. A face of a plane mesh is the edge from node n0 to node n1, with the cell c0 on its left and
-// c1 on its right; 0 stands for the outside. A cell has a shape, and its nodes follow from its faces.
+// A file is a list of sections in parentheses, each with its number first: 2 the dimension, 10 nodes, 12 cells, 13
+// faces, 45 (or 39) the type and the name of a zone. A header says which nodes, cells or faces of which zone follow;
+// zone 0 declares how many there are in all. Numbers in headers and lists are hexadecimal and count from 1, but those
+// of zones in section 45 are decimal. A face of a plane mesh is the edge from node n0 to node n1, with the cell c0 on
+// its left and c1 on its right; 0 stands for the outside. A cell has a shape, and its nodes follow from its faces.
 //
-// A binary section has the number 3010 (doubles) or 2010 (floats), 2012, 2013: its header in ASCII, a parenthesis with the
-// numbers right behind it (integers of 4 bytes), and a line that ends it. Section 4 tells the order of the bytes.
+// A binary section has the number 3010 (doubles) or 2010 (floats), 2012, 2013: its header in ASCII, a parenthesis with
+// the numbers right behind it (integers of 4 bytes), and a line that ends it. Section 4 tells the order of the bytes.
 #pragma once
 
 #include <array>

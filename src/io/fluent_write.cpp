@@ -1,8 +1,8 @@
 // Writes Ansys Fluent's mesh format, ASCII and binary. fluent.hpp describes the format.
 //
-// Zone 1 holds the nodes, zone 2, `fluid`, the cells, zone 3, `interior`, the faces between cells, and each marker has a
-// zone of its own. Nodes and cells keep their order. Coordinates in ASCII have 17 digits: OpenFOAM rounds what it reads
-// twice, and misses some numbers of the fewest digits.
+// Zone 1 holds the nodes, zone 2, `fluid`, the cells, zone 3, `interior`, the faces between cells, and each marker has
+// a zone of its own. Nodes and cells keep their order. Coordinates in ASCII have 17 digits: OpenFOAM rounds what it
+// reads twice, and misses some numbers of the fewest digits.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -119,8 +119,8 @@ private:
         out_ << fmt::format("({} ({} {} {})())\n", int{fluent_zone}, zone, type, name);
     }
 
-    /// Begins a section with a list. In binary files the parenthesis begins a line: meshio reads the line with the header
-    /// as text, and VTK takes what follows the parenthesis for the first number.
+    /// Begins a section with a list. In binary files the parenthesis begins a line: meshio reads the line with the
+    /// header as text, and VTK takes what follows the parenthesis for the first number.
     void begin(int section, int binary_kind, const std::string& header) {
         if (binary_)
             out_ << fmt::format("({} ({})\n(", binary_kind + section, header);

@@ -17,8 +17,8 @@ namespace lamina::io {
 struct MeshFaces {
     mesh::CellEdges edges;
     mesh::Adjacency adjacency;
-    /// Directed edges of `edges`: first each edge between two cells, as that of the lower cell, sorted by this cell, then
-    /// by the other; then those of each marker, in the order of its edges.
+    /// Directed edges of `edges`: first each edge between two cells, as that of the lower cell, sorted by this cell,
+    /// then by the other; then those of each marker, in the order of its edges.
     std::vector<std::uint32_t> faces{};
     std::size_t internal = 0;  ///< number of faces between two cells
 
@@ -30,8 +30,8 @@ struct MeshFaces {
     VertexId target(std::size_t face) const { return edges.target(faces[face]); }
 };
 
-/// Finds the faces. Throws MeshError, which names the file and the format, where the mesh is not conforming, or where its
-/// boundary and its markers are not the same, with the cell on the left of each edge.
+/// Finds the faces. Throws MeshError, which names the file and the format, where the mesh is not conforming, or where
+/// its boundary and its markers are not the same, with the cell on the left of each edge.
 MeshFaces find_faces(const MeshView& mesh, const std::filesystem::path& file, const char* format);
 
 }  // namespace lamina::io

@@ -7,8 +7,8 @@
 //
 // Internal faces come first, in upper-triangular order: by owner (the lower of the two cells), then by neighbour, which
 // for each cell but those at the last plane ends with the face to the next plane. The patches follow: the faces of each
-// marker, from plane to plane in the order of its edges, then the back of all cells at the first plane, then the front of
-// those at the last one. For plane flow both are one patch, `frontAndBack`, of type empty.
+// marker, from plane to plane in the order of its edges, then the back of all cells at the first plane, then the front
+// of those at the last one. For plane flow both are one patch, `frontAndBack`, of type empty.
 #include <fmt/format.h>
 
 #include <algorithm>

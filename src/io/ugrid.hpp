@@ -4,9 +4,10 @@
 // Plane files hold the nodes as x y 0, the triangles, the quadrilaterals, the number 1 for each of them, and then the
 // boundary: the number of its edges, and two nodes and the number of the marker for each edge.
 //
-// Files for FUN3D hold a mesh in space in ASCII or binary (extrusion.hpp). The airfoil lies in planes of constant y, the
-// first at y = 0. Prisms and hexahedra stand on the face with the higher y, whose normal points to the other. Normals of the boundary's faces point into the domain. Markers
-// are numbered from 1 on; the first and the last plane follow.
+// Files for FUN3D hold a mesh in space in ASCII or binary (extrusion.hpp). The airfoil lies in planes of constant y,
+// the first at y = 0. Prisms and hexahedra stand on the face with the higher y, whose normal points to the other.
+// Normals of the boundary's faces point into the domain. Markers are numbered from 1 on; the first and the last plane
+// follow.
 //
 // The .mapbc file beside either holds the number, the code and the name of each marker.
 #pragma once

@@ -1,9 +1,9 @@
 // Writes VTK XML unstructured grids in space (extrusion.hpp), for ParaView and programs that read VTK's files.
 //
-//   cells        wedges, hexahedra, the quads of the markers, then the triangles and quads in the first plane and those in
-//                the last one
-//   cell data    marker (0 in the volume, 1 on the first marker ...; the planes follow the markers), and region where the
-//                mesh has it (0 layer, 1 isotropic, 2 on markers and planes)
+//   cells        wedges, hexahedra, the quads of the markers, then the triangles and quads in the first plane and
+//                those in the last one
+//   cell data    marker (0 in the volume, 1 on the first marker ...; the planes follow the markers), and region where
+//                the mesh has it (0 layer, 1 isotropic, 2 on markers and planes)
 //   field data   marker_names and marker_kinds, as in plane files
 #include <fmt/format.h>
 
