@@ -28,7 +28,7 @@ constexpr std::array reserved_words =
                                      "y0",
                                      "y1",  // FUN3D: the planes at the ends of a span
                                      "z0",
-                                     "z1",  // those of other formats
+                                     "z1",        // those of other formats
                                      "interior",  // Fluent: the faces between cells
                                      "zone",
                                      "zonetype",
