@@ -9,15 +9,13 @@
 // Limits:
 //  1. The format follows from the extension unless it is named. "-" is standard input or output: name its format.
 //  2. UsageError for an unknown format or extension, IoError where a file cannot be read or written.
-//  3. Stored files must not shrink while they are read. The folder TMPDIR, or /var/tmp, needs 20 to 27 bytes a
-//     triangle.
+//  3. Stored files must not shrink while they are read. TMPDIR, or /var/tmp, needs 20 to 27 bytes a triangle.
 // Example:
 //     const Mesh mesh = generate_mesh({"naca:0012:60"}, {.layer = {.enabled = false}}).mesh;
 //     write_mesh(mesh, "section.su2");
 //     assert(mesh_hash(read_mesh("section.su2")) == mesh_hash(mesh));
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <memory>
 
@@ -40,11 +38,7 @@ struct MeshFormat {
 
 LAMINA_EXPORT std::vector<MeshFormat> mesh_formats();  ///< all formats of this build, in the order of the guide's table
 
-/// The largest number of parts that write_mesh() divides a mesh into.
-inline constexpr std::size_t max_parts = 65'536;
-
-/// The ends of a mesh in space: planes of symmetry, or planes of which each continues the mesh at the other.
-enum class SpanEnds : std::uint8_t { symmetry, periodic };
+inline constexpr std::size_t max_parts = 65'536;  ///< the largest number of parts that write_mesh() makes of a mesh
 
 /// Options of write_mesh().
 struct WriteOptions {
@@ -52,8 +46,8 @@ struct WriteOptions {
     bool wall_distance = false;  ///< writes the distance to the nearest wall as point data, in VTU files
     std::size_t parts = 1;  ///< of PVTU files; more than one make OpenFOAM's cellDecomposition beside polyMesh, too
     double span = 0;        ///< depth in units of the mesh; 0: a plane mesh, or one that is 1 deep
-    std::size_t span_cells = 1;               ///< number of cells across the span
-    SpanEnds span_ends = SpanEnds::symmetry;  ///< of the span
+    std::size_t span_cells = 1;  ///< number of cells across the span
+    bool span_periodic = false;  ///< whether each end of the span continues the other; else both are planes of symmetry
 };
 
 /// Writes a mesh. Throws UsageError, too, for marker names, and MeshError for a mesh that the format cannot hold.

@@ -29,13 +29,13 @@ struct MeshCase {
     std::size_t parts = 1;                  ///< of PVTU files and of OpenFOAM's cellDecomposition
     std::optional<Length> span;             ///< of meshes in space; empty: plane ones
     std::size_t span_cells = 1;             ///< number of cells across the span
-    SpanEnds span_ends = SpanEnds::symmetry;
-    bool wall_distance = false;  ///< whether VTU files hold the distance to the nearest wall
-    std::string wall_data;       ///< CSV file of the wall vertices; empty: none
-    std::string report;          ///< JSON file; empty: none
-    std::string html;            ///< page with a view of the mesh; empty: none
-    std::string background;      ///< mesh file with sizes; empty: none
-    CaseOptions options;         ///< without the background mesh, which is read when the work begins
+    bool span_periodic = false;             ///< whether its ends continue each other
+    bool wall_distance = false;             ///< whether VTU files hold the distance to the nearest wall
+    std::string wall_data;                  ///< CSV file of the wall vertices; empty: none
+    std::string report;                     ///< JSON file; empty: none
+    std::string html;                       ///< page with a view of the mesh; empty: none
+    std::string background;                 ///< mesh file with sizes; empty: none
+    CaseOptions options;                    ///< without the background mesh, which is read when the work begins
     ProgressShown progress = ProgressShown::automatic;
     bool quiet = false;              ///< whether the summary is left out
     bool strict = false;             ///< whether warnings make the run fail

@@ -93,9 +93,7 @@ void add_convert_command(CLI::App& app) {
     command
         ->add_option_function<std::string>(
             "--span-ends",
-            [arguments](const std::string& ends) {
-                arguments->options.span_ends = ends == "periodic" ? SpanEnds::periodic : SpanEnds::symmetry;
-            },
+            [arguments](const std::string& ends) { arguments->options.span_periodic = ends == "periodic"; },
             "what the two planes at the ends of --span are")
         ->check(CLI::IsMember({"symmetry", "periodic"}))
         ->type_name("symmetry|periodic");

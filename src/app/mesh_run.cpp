@@ -74,7 +74,7 @@ WriteOptions write_options(const MeshCase& mesh_case, double chord) {
             .parts = mesh_case.parts,
             .span = mesh_case.span ? in_units(*mesh_case.span, chord) : 0,
             .span_cells = mesh_case.span_cells,
-            .span_ends = mesh_case.span_ends};
+            .span_periodic = mesh_case.span_periodic};
 }
 
 MeshDestination destination_of_outputs(const MeshCase& mesh_case) {

@@ -53,8 +53,7 @@ OptionTable<MeshCase> file_options() {
     table.count("span-cells", "N", "number of cells across --span", numbers_from_to(1, 100'000),
                 member_at(&MeshCase::span_cells));
     table.choice("span-ends", "what the two planes at the ends of --span are",
-                 Choices<SpanEnds>{{"symmetry", SpanEnds::symmetry}, {"periodic", SpanEnds::periodic}},
-                 member_at(&MeshCase::span_ends));
+                 Choices<bool>{{"symmetry", false}, {"periodic", true}}, member_at(&MeshCase::span_periodic));
     table.flag("wall-distance", "write the distance to the nearest wall as point data, in VTU files", true,
                member_at(&MeshCase::wall_distance));
     table.text("wall-data", OptionKind::path, "FILE",

@@ -14,7 +14,7 @@
 namespace lamina::io {
 
 void require_span(const WriteOptions& options) {
-    if (options.span == 0 && (options.span_cells != 1 || options.span_ends != SpanEnds::symmetry))
+    if (options.span == 0 && (options.span_cells != 1 || options.span_periodic))
         throw UsageError("the cells and the ends of a span need the span");
     if (!(options.span >= 0 && std::isfinite(options.span)) || options.span_cells == 0)
         throw UsageError(
@@ -24,7 +24,7 @@ void require_span(const WriteOptions& options) {
 Extrusion extrusion_of(const MeshView& mesh, const std::filesystem::path& file, const WriteOptions& options) {
     require_span(options);
     Extrusion extrusion;
-    if (options.span > 0) extrusion = {options.span, options.span_cells, options.span_ends == SpanEnds::periodic};
+    if (options.span > 0) extrusion = {options.span, options.span_cells, options.span_periodic};
     // A cell has five or six faces, of which it shares all but a few.
     const std::size_t cells = mesh.triangles.size() + mesh.quads.size();
     const double largest =

@@ -89,10 +89,10 @@ TEST(Span, OpenFoamsCellsAreClosedAndInOrder) {
     const TemporaryFolder folder;
     const Mesh mesh = annulus({.quads_in_layer = true});
     const std::size_t cells = mesh.triangles.size() + mesh.quads.size();
-    for (const SpanEnds ends : {SpanEnds::symmetry, SpanEnds::periodic})
+    for (const bool periodic : {false, true})
         for (const std::size_t across : {1, 2, 5}) {
             write_mesh(mesh, folder / "case",
-                       {.format = "openfoam", .span = 0.3, .span_cells = across, .span_ends = ends});
+                       {.format = "openfoam", .span = 0.3, .span_cells = across, .span_periodic = periodic});
             const PolyMesh foam = read_poly_mesh(folder);
             ASSERT_EQ(foam.points.size(), (across + 1) * mesh.points.size());
             EXPECT_EQ(foam.points.back()[2], 0.3);
@@ -116,11 +116,10 @@ TEST(Span, OpenFoamsCellsAreClosedAndInOrder) {
                 EXPECT_LT(std::sqrt(dot(sum[c], sum[c])), 1e-12);
                 EXPECT_GT(volume[c], 0);
             }
-            const bool plane_flow = across == 1 && ends == SpanEnds::symmetry;
+            const bool plane_flow = across == 1 && !periodic;
             EXPECT_EQ(foam.boundary.find("frontAndBack") != std::string::npos, plane_flow);
-            EXPECT_EQ(foam.boundary.find("symmetryPlane;") != std::string::npos,
-                      across > 1 && ends == SpanEnds::symmetry);
-            if (ends != SpanEnds::periodic) continue;
+            EXPECT_EQ(foam.boundary.find("symmetryPlane;") != std::string::npos, across > 1 && !periodic);
+            if (!periodic) continue;
             // Face i of one plane lies below face i of the other, and they begin with the same corner.
             for (std::size_t i = 0; i < cells; ++i) {
                 const auto& low = foam.faces[foam.faces.size() - 2 * cells + i];
@@ -154,8 +153,7 @@ TEST(Span, MshAndUgridHoldAllCells) {
     EXPECT_EQ(counts[2], 2 * mesh.triangles.size());
     EXPECT_NE(folder.read("m.msh").find("\"z1\""), std::string::npos);
     EXPECT_EQ(folder.read("m.msh").find("$Periodic"), std::string::npos);
-    write_mesh(mesh, folder / "m.msh",
-               {.format = "msh22-extruded", .span = 2, .span_cells = 4, .span_ends = SpanEnds::periodic});
+    write_mesh(mesh, folder / "m.msh", {.format = "msh22-extruded", .span = 2, .span_cells = 4, .span_periodic = true});
     EXPECT_NE(folder.read("m.msh").find("$Periodic"), std::string::npos);
 
     write_mesh(mesh, folder / "m.ugrid", {.format = "fun3d", .span = 2, .span_cells = 4});
@@ -223,7 +221,7 @@ TEST(Span, IsRefusedWhereItCannotBe) {
     EXPECT_THROW(write_mesh(mesh, folder / "m.cas", {.span = 1}), UsageError);
     EXPECT_THROW(write_mesh(mesh, folder / "m.vtu", {.span = -1}), UsageError);
     EXPECT_THROW(write_mesh(mesh, folder / "m.vtu", {.span_cells = 2}), UsageError);
-    EXPECT_THROW(write_mesh(mesh, folder / "m.vtu", {.span_ends = SpanEnds::periodic}), UsageError);
+    EXPECT_THROW(write_mesh(mesh, folder / "m.vtu", {.span_periodic = true}), UsageError);
     EXPECT_THROW(write_mesh(mesh, folder / "m.vtu", {.span = 1, .span_cells = 0}), UsageError);
     EXPECT_THROW(write_mesh(mesh, folder / "m.vtu", {.span = 1, .span_cells = 100'000'000}), UsageError);
     EXPECT_THROW(open_mesh_sink(folder / "m.vtu", {.span = 1}), UsageError);
