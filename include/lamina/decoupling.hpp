@@ -4,7 +4,8 @@
 // Guarantees:
 //  1. Subdomains share frozen borders, so that their triangles fit together whatever the options say.
 // Limits:
-//  1. The far field encloses bodies and layers at a hundredth of their extent, or it is an OptionError of the mesh.
+//  1. The far field encloses bodies and layers at a hundredth of their extent, or it is an OptionError of the mesh. Ground
+//     and tunnel walls may be as near as bodies are to each other.
 // Example:
 //     CaseOptions options{.layer = {.enabled = false}, .far_field = {.size = 10, .ground = 0.5}};
 //     assert(generate_mesh({"naca:0012:60"}, options).mesh.markers.back().name == "ground");
@@ -13,6 +14,7 @@
 #pragma once
 
 #include <optional>
+#include <variant>
 #include <vector>
 
 #include <lamina/export.hpp>
@@ -28,15 +30,34 @@ enum class FarFieldShape {
     outline,  ///< any convex polygon
 };
 
+/// How the flow meets a wall on the border of the domain.
+enum class OuterWallKind {
+    slip,     ///< it slips along the wall, which has no layers
+    no_slip,  ///< it sticks to the wall
+    moving,   ///< it sticks to the wall, which moves with the free stream
+};
+
+/// A y+ that the top of the first layer on a wall lies at, as LayerOptions::first_height may have one.
+struct OuterYPlus {
+    double y_plus = 1;  ///< as for a flat plate as long as the chord
+};
+
+/// The first height of the layers on a wall of the domain.
+using OuterLayers = std::variant<Length, OuterYPlus>;
+
 /// Options of the far field. It lies round the middle of the configuration.
 struct FarFieldOptions {
     FarFieldShape shape = FarFieldShape::box;  ///< which of the other members count
     Length size = 100;                         ///< half-width of the box or radius of the circle
     std::vector<Point> outline{};              ///< corners of the polygon, counter-clockwise, in units of the input
-    /// Height of a wind tunnel, whose floor and ceiling are slip walls: the box is as high as this. Its floor is the
-    /// ground where there is one, and else the configuration is in the middle.
+    /// Height of a wind tunnel: the box is as high as this. Its floor is the ground where there is one, and else the
+    /// configuration is in the middle.
     std::optional<Length> tunnel{};
-    std::optional<Length> ground{};  ///< distance of flat ground, a slip wall, below the lowest point
+    OuterWallKind tunnel_walls = OuterWallKind::slip;  ///< ceiling, and floor where there is no ground: none moves
+    std::optional<OuterLayers> tunnel_layers{};        ///< on them; empty: as on the bodies
+    std::optional<Length> ground{};                    ///< distance of flat ground below the lowest point
+    OuterWallKind ground_wall = OuterWallKind::slip;   ///< how the flow meets it
+    std::optional<OuterLayers> ground_layers{};        ///< on it; empty: as on the bodies
 };
 
 /// Throws OptionError where an option is out of range, and where the outline is no convex polygon.

@@ -58,7 +58,7 @@ struct CaseOptions {
 };
 
 /// Throws OptionError where an option of any stage is out of range, where a y+ or the use of the flow lacks its
-/// Reynolds number, and where the flow is to cross the slip walls of a tunnel or the ground.
+/// Reynolds number, and where the flow is to cross the walls of a tunnel or the ground.
 LAMINA_EXPORT void validate(const CaseOptions& options);
 /// Returns the options of a mesh that is similar to that of these options, with all lengths divided by `ratio`; below 1
 /// the mesh is coarser. Members of a family for a study of convergence are made so.
@@ -140,6 +140,13 @@ struct FlowDecisions {
     bool knows_shocks = false;  ///< whether compressible flow before the mesh became steady, and said where they are
 };
 
+/// The layers on a wall of the domain.
+struct OuterWallLayer {
+    std::string name;          ///< of its marker: `ground`, `floor` or `ceiling`
+    double first_height = 0;   ///< in units of the input
+    ElementCoverage coverage;  ///< how many of the cells were made
+};
+
 /// A mesh, and the facts about it that the report of a run tells.
 struct MeshResult {
     Mesh mesh;                                  ///< the mesh
@@ -165,6 +172,7 @@ struct MeshResult {
     std::vector<std::uint32_t> columns;
     std::vector<VertexId> column_origins;         ///< per column: the vertex that its first ray begins at
     std::vector<ElementCoverage> layer_coverage;  ///< per element; empty without layers
+    std::vector<OuterWallLayer> outer_walls;      ///< ground, floor and ceiling that have layers
     BorderSteps border_steps;                     ///< of the layer's outer border
     std::size_t thinned_rays = 0;                 ///< rays shortened so that angles beyond and within keep bounds
     Point thinned_at{};                           ///< origin of the one that lost the largest share of its height

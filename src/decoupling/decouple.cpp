@@ -28,6 +28,12 @@ Box box_round(std::span<const Point> points, std::span<const std::vector<VertexI
     return box;
 }
 
+/// Returns the box round the borders of bodies.
+Box box_round_bodies(std::span<const Point> points, std::span<const std::vector<VertexId>> borders,
+                     const FarField& far_field) {
+    return box_round(points, borders.first(borders.size() - far_field.has_walls()));
+}
+
 /// Starts a skeleton with the borders of the layers, turned clockwise: the outer region lies on their left.
 Skeleton start_skeleton(std::span<const Point> points, std::span<const std::vector<VertexId>> borders) {
     Skeleton skeleton(points);
@@ -71,7 +77,8 @@ UncutSkeleton draw_skeleton(const OuterRegion& region, const SizeField& size, co
     const FarField& far_field = region.far_field;
     const bool is_box = far_field.shape == FarFieldShape::box;
     const Box outermost = inscribed_box(far_field);
-    const auto near_body = near_body_box(box_round(region.points, region.borders), outermost, far_field);
+    const auto near_body =
+        near_body_box(box_round_bodies(region.points, region.borders, far_field), outermost, far_field);
     UncutSkeleton uncut{start_skeleton(region.points, region.borders), {}};
     Lines& lines = uncut.skeleton.lines;
     std::vector<std::uint32_t> outermost_lines;
@@ -85,6 +92,7 @@ UncutSkeleton draw_skeleton(const OuterRegion& region, const SizeField& size, co
     } else {
         number_lines(lines, size);
     }
+    if (far_field.has_walls()) return uncut;
     if (!is_box) {
         uncut.far_field = add_far_field_outline(uncut.skeleton, far_field, size);
         uncut.far_field_lines.push_back(static_cast<std::uint32_t>(lines.size() - 1));
@@ -148,9 +156,10 @@ Subdomain make_subdomain(const LineBorder& line_border, const WorkEstimate* know
 
 double estimate_triangles(std::span<const Point> points, std::span<const std::vector<VertexId>> borders,
                           const SizeField& size, const FarField& far_field) {
-    near_body_box(box_round(points, borders), inscribed_box(far_field), far_field);  // throws where there is no room
+    // Throws where there is no room.
+    near_body_box(box_round_bodies(points, borders, far_field), inscribed_box(far_field), far_field);
     Skeleton skeleton = start_skeleton(points, borders);
-    skeleton.add_new_loop(outline_of(far_field));
+    if (!far_field.has_walls()) skeleton.add_new_loop(outline_of(far_field));
     double triangles = 0;
     for (const LineBorder& border : skeleton.trace())
         triangles += estimate_undivided(localize(border, skeleton.lines, size), size);

@@ -37,7 +37,14 @@ void require_resolved(const Box& bodies, const FarField& far_field, const char* 
 }
 
 /// Returns the distance of the box of the bodies from the far field; negative where the far field does not enclose it.
+/// Walls that do not touch the bodies do not count.
 double room_around(const Box& bodies, const FarField& far_field) {
+    if (far_field.has_walls()) {
+        if (!(far_field.floor < bodies.lower.y && bodies.upper.y < far_field.ceiling)) return -HUGE_VAL;
+        const Box domain = far_field.box();
+        const double above = std::isfinite(far_field.ceiling) ? HUGE_VAL : domain.upper.y - bodies.upper.y;
+        return std::min({bodies.lower.x - domain.lower.x, domain.upper.x - bodies.upper.x, above});
+    }
     double room = room_between(bodies, far_field.box());
     for (const Point corner : bodies.corners()) {
         if (far_field.shape == FarFieldShape::circle)
@@ -52,21 +59,14 @@ double room_around(const Box& bodies, const FarField& far_field) {
 /// are up to twice as long (SpacingOptions::max_spacing), and below that angles are too small.
 double least_room(const Box& bodies) { return 0.01 * core::longer_side(bodies); }
 
-/// Returns the option that places the side of the far field that is nearest to the bodies.
-const char* option_of_nearest_side(const FarField& far_field, const Box& bodies) {
-    const double to_walls = std::min(bodies.lower.y - far_field.floor, far_field.ceiling - bodies.upper.y);
-    if (to_walls > room_around(bodies, far_field)) return "far_field";
-    return std::isfinite(far_field.ceiling) ? "tunnel" : "ground";
-}
-
-/// Returns the far field with the slip walls that the options ask for, from upstream to downstream:
+/// Returns the far field with the walls that the options ask for, from upstream to downstream:
 ///
 ///          ceiling  ________________________
 ///                  |                        |
 ///           inlet  |     ,=--.__            |  outlet        the far field's half-width on either side
 ///                  |________________________|
 ///            floor
-FarField between_slip_walls(FarField box, const Box& bodies, double chord, const FarFieldOptions& options) {
+FarField between_walls(FarField box, const Box& bodies, double chord, const FarFieldOptions& options) {
     const double radius = box.radius;
     double floor = box.center.y - radius, ceiling = box.center.y + radius;
     if (options.tunnel) {
@@ -116,11 +116,11 @@ bool leaves_room(const FarField& far_field, const Box& bodies) {
 std::optional<Box> near_body_box(const Box& bodies, const Box& outermost, const FarField& far_field) {
     const double extent = core::longer_side(bodies);
     if (!leaves_room(far_field, bodies))
-        throw OptionError(option_of_nearest_side(far_field, bodies),
+        throw OptionError("far_field",
                           fmt::format("leaves {:.3g} units of the input beside the bodies and their layers, but {:.3g} "
                                       "are needed, a hundredth of their extent",
                                       std::max(0.0, room_around(bodies, far_field)), least_room(bodies)));
-    if (room_between(bodies, outermost) < 1.5 * extent) return std::nullopt;
+    if (far_field.has_walls() || room_between(bodies, outermost) < 1.5 * extent) return std::nullopt;
     const double margin = 0.5 * extent;
     return Box{bodies.lower - Point{margin, margin}, bodies.upper + Point{margin, margin}};
 }
@@ -137,7 +137,7 @@ FarField place_far_field(const Box& bodies, double chord, const FarFieldOptions&
     FarField far_field{options.shape, bodies.center(), in_units(options.size, chord)};
     if (options.shape != FarFieldShape::outline) {
         require_resolved(bodies, far_field, "far_field");
-        return options.tunnel || options.ground ? between_slip_walls(far_field, bodies, chord, options) : far_field;
+        return options.tunnel || options.ground ? between_walls(far_field, bodies, chord, options) : far_field;
     }
     far_field.outline = options.outline;
     for_each_edge(far_field.outline, [&](Point a, Point along) {

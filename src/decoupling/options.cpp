@@ -3,12 +3,15 @@
 
 #include <span>
 #include <string>
+#include <string_view>
+#include <variant>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include <lamina/predicates.hpp>
 
+#include "core/length.hpp"
 #include "core/option_rows.hpp"
 #include "core/text.hpp"
 
@@ -32,6 +35,23 @@ std::string outline_text(std::span<const Point> corners) {
     std::string text;
     for (const Point p : corners) text += core::concat(text.empty() ? "" : ",", p.x, ",", p.y);
     return text;
+}
+
+/// Reads the first height on a wall: a length, or "y+" and a number. Throws UsageError with the bare reason.
+OuterLayers parse_outer_layers(const std::string& text) {
+    constexpr std::string_view y_plus = "y+";
+    const bool is_y_plus = text.rfind(y_plus, 0) == 0;
+    const Length height = core::parse_length(is_y_plus ? text.substr(y_plus.size()) : text);
+    require_in_range(positive_numbers, height.value, "layers");
+    if (!is_y_plus) return height;
+    if (height.unit != LengthUnit::chord) throw UsageError("'" + text + "': a y+ has no unit");
+    return OuterYPlus{height.value};
+}
+
+/// Returns the text that parse_outer_layers() reads back.
+std::string outer_layers_text(const OuterLayers& layers) {
+    const auto* height = std::get_if<Length>(&layers);
+    return height ? core::length_text(*height) : core::concat("y+", std::get<OuterYPlus>(layers).y_plus);
 }
 
 }  // namespace
@@ -62,15 +82,27 @@ OptionTable<FarFieldOptions> option_rows() {
                "instead: corners of a convex far field, counter-clockwise, in units of the input", "", set, get});
     const std::vector<std::string> other_shapes{"far-field-shape", "far-field-outline"};
     table
-        .length("tunnel", "H",
-                "height of a wind tunnel with the configuration in its middle, or on its ground: floor and ceiling are "
-                "slip walls",
+        .length("tunnel", "H", "height of a wind tunnel with the configuration in its middle, or on its ground",
                 positive_numbers, member_at(&FarFieldOptions::tunnel))
         .excludes = other_shapes;
+    table.choice("tunnel-walls", "floor and ceiling of the tunnel",
+                 Choices<OuterWallKind>{{"slip", OuterWallKind::slip}, {"no-slip", OuterWallKind::no_slip}},
+                 member_at(&FarFieldOptions::tunnel_walls));
+    table.spec("tunnel-layers", "H|y+Y",
+               "height of the first layer on floor and ceiling without slip, or its y+ on a flat plate; as on the "
+               "configuration where it is not given",
+               parse_outer_layers, outer_layers_text, member_at(&FarFieldOptions::tunnel_layers));
     table
-        .length("ground", "H", "distance of flat ground below the lowest point of the configuration: a slip wall",
-                positive_numbers, member_at(&FarFieldOptions::ground))
+        .length("ground", "H", "distance of flat ground below the lowest point of the configuration", positive_numbers,
+                member_at(&FarFieldOptions::ground))
         .excludes = other_shapes;
+    table.choice("ground-wall", "the ground: with slip, without, or without and moving with the free stream",
+                 Choices<OuterWallKind>{{"slip", OuterWallKind::slip},
+                                        {"no-slip", OuterWallKind::no_slip},
+                                        {"moving", OuterWallKind::moving}},
+                 member_at(&FarFieldOptions::ground_wall));
+    table.spec("ground-layers", "H|y+Y", "the same as tunnel-layers, on ground without slip", parse_outer_layers,
+               outer_layers_text, member_at(&FarFieldOptions::ground_layers));
     return table.take();
 }
 template LAMINA_EXPORT const OptionTable<FarFieldOptions>& option_table();
@@ -99,6 +131,16 @@ void validate(const FarFieldOptions& options) {
     if (options.shape == FarFieldShape::outline) require_convex(options.outline);
     if (options.shape != FarFieldShape::box && (options.tunnel || options.ground))
         throw OptionError(options.tunnel ? "tunnel" : "ground", "needs the far field to be a box");
+    if (options.tunnel_walls == OuterWallKind::moving) throw OptionError("tunnel_walls", "no wall of a tunnel moves");
+    const auto require = [](bool given, bool base, const char* option, const char* needed) {
+        if (given && !base) throw OptionError(option, std::string("needs ") + needed);
+    };
+    require(options.tunnel_walls != OuterWallKind::slip, options.tunnel.has_value(), "tunnel_walls", "a tunnel");
+    require(options.ground_wall != OuterWallKind::slip, options.ground.has_value(), "ground_wall", "ground");
+    require(options.tunnel_layers.has_value(), options.tunnel_walls != OuterWallKind::slip, "tunnel_layers",
+            "tunnel_walls without slip");
+    require(options.ground_layers.has_value(), options.ground_wall != OuterWallKind::slip, "ground_layers",
+            "ground_wall without slip");
 }
 
 void validate(const DecouplingOptions& options) {

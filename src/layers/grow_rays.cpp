@@ -34,9 +34,9 @@ void require_sensible_scale(const Box& box, const LayerGrowth& growth, std::span
     const double extent = core::longer_side(box);
     const double max_coordinate =
         std::max({std::abs(box.lower.x), std::abs(box.lower.y), std::abs(box.upper.x), std::abs(box.upper.y)});
-    const double least = growth.first_heights.empty()
-                             ? growth.first_height
-                             : *std::min_element(growth.first_heights.begin(), growth.first_heights.end());
+    double least = growth.first_heights.empty() ? growth.first_height : HUGE_VAL;
+    for (const double height : growth.first_heights)
+        if (height > 0) least = std::min(least, height);  // the others are walls without layers
     if (!(least > min_roundings * std::numeric_limits<double>::epsilon() * max_coordinate))
         throw OptionError("first_height", fmt::format("{} is below the resolution of coordinates as large as {}", least,
                                                       max_coordinate));
@@ -62,8 +62,26 @@ std::vector<double> heights_at_vertices(std::span<const RayVertex> outline, std:
     return result;
 }
 
-RaySet rays_of(const Geometry& geometry, std::span<const DividedWake> wakes, const LayerOptions& options,
+/// Adds the rays of an outer wall: normals of its straight parts, and bisectors at its corners beyond the domain.
+void add_outer_wall(const OuterWall& wall, RaySet& set) {
+    const std::vector<Point>& p = wall.points;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        const Point before = unit(p[i] - p[i > 0 ? i - 1 : p.size() - 1]);
+        const Point after = unit(p[i + 1 < p.size() ? i + 1 : 0] - p[i]);
+        set.lines.push_back({p[i], -perpendicular(unit(before + after))});
+    }
+    set.begin.push_back(set.lines.size());
+}
+
+/// The walls that rays grow from.
+struct Walls {
+    const Geometry& geometry;
+    std::span<const OuterWall> outer;
+};
+
+RaySet rays_of(const Walls& walls, std::span<const DividedWake> wakes, const LayerOptions& options,
                const LayerGrowth& growth) {
+    const Geometry& geometry = walls.geometry;
     RaySet set;
     for (std::size_t e = 0; e < geometry.elements.size(); ++e) {
         const Element& element = geometry.elements[e];
@@ -80,6 +98,7 @@ RaySet rays_of(const Geometry& geometry, std::span<const DividedWake> wakes, con
         set.lines.insert(set.lines.end(), rays.begin(), rays.end());
         set.begin.push_back(set.lines.size());
     }
+    for (const OuterWall& wall : walls.outer) add_outer_wall(wall, set);
     return set;
 }
 
@@ -122,16 +141,28 @@ void count_layers_on_all_rays(Rays& rays) {
         shift_rays_of_corners(rays.growth, rays.set);
         fit_and_count_layers(rays);
         if (round == max_rounds || !uses("lower_first")) return;
-        const auto share = [&](std::size_t i) { return rays.counts[i] == 0 ? 0.5 : 1; };
+        const auto share = [&](std::size_t i) { return rays.counts[i] == 0 && rays.asked[i] > 0 ? 0.5 : 1; };
         if (!lower_first_layers(rays, share)) return;
     }
 }
 
+/// Returns the number behind the last ray in the domain, for each outer wall.
+std::vector<std::size_t> domain_ends(const RaySet& set, std::span<const OuterWall> outer) {
+    std::vector<std::size_t> ends;
+    const std::size_t bodies = set.elements() - outer.size();
+    for (std::size_t k = 0; k < outer.size(); ++k) ends.push_back(set.begin[bodies + k] + outer[k].in_domain);
+    return ends;
+}
+
 /// Grows the rays of these walls and wakes.
-void grow_from(const Geometry& geometry, std::span<const DividedWake> wakes, const LayerOptions& options, Rays& rays) {
-    rays.set = rays_of(geometry, wakes, options, rays.growth);
+void grow_from(const Walls& walls, std::span<const DividedWake> wakes, const LayerOptions& options, Rays& rays) {
+    rays.set = rays_of(walls, wakes, options, rays.growth);
+    rays.outer_ends = domain_ends(rays.set, walls.outer);
     measure_room(rays);
-    require_sensible_scale(bounding_box(geometry), rays.growth, rays.asked);
+    Box box = bounding_box(walls.geometry);
+    for (const OuterWall& wall : walls.outer)
+        for (const Point p : wall.points) box.include(p);
+    require_sensible_scale(box, rays.growth, rays.asked);
     if (uses("fit_first")) fit_first_layers(rays);
     count_layers_on_all_rays(rays);
 }
@@ -145,7 +176,8 @@ std::vector<double> needed_heights(const Rays& walls) {
 }
 
 /// Grows the rays anew with wakes where there is room for them.
-void add_wakes(const Geometry& geometry, const LayerOptions& options, Rays& rays) {
+void add_wakes(const Walls& walls, const LayerOptions& options, Rays& rays) {
+    const Geometry& geometry = walls.geometry;
     constexpr int max_rounds = 8;
     std::vector<double> ends(rays.growth.wakes.size(), HUGE_VAL);
     keep_wakes_clear(rays.set, needed_heights(rays), divide_wakes(geometry, rays.growth, ends), ends);
@@ -153,7 +185,7 @@ void add_wakes(const Geometry& geometry, const LayerOptions& options, Rays& rays
     for (int round = 0;; ++round) {
         if (round == max_rounds) std::fill(ends.begin(), ends.end(), 0.0);
         wakes = divide_wakes(geometry, rays.growth, ends);
-        grow_from(geometry, wakes, options, rays);
+        grow_from(walls, wakes, options, rays);
         if (!shorten_bare_wakes(rays.set, rays.counts, wakes, ends)) break;
     }
     for (const DividedWake& wake : wakes) {
@@ -163,29 +195,37 @@ void add_wakes(const Geometry& geometry, const LayerOptions& options, Rays& rays
 }
 
 /// Returns one ray without a direction for each wall vertex: the rays where the layer is disabled.
-RaySet bare_walls(const Geometry& geometry) {
+RaySet bare_walls(const Walls& walls) {
     RaySet set;
-    for (const Element& element : geometry.elements) {
-        for (Point p : element.points) set.lines.push_back({p, {}});
+    const auto add = [&](const std::vector<Point>& points) {
+        for (Point p : points) set.lines.push_back({p, {}});
         set.begin.push_back(set.lines.size());
-    }
+    };
+    for (const Element& element : walls.geometry.elements) add(element.points);
+    for (const OuterWall& wall : walls.outer) add(wall.points);
     return set;
 }
 
 }  // namespace
 
-Rays grow_rays(const Geometry& geometry, const LayerOptions& options, const LayerGrowth& growth) {
+Rays grow_rays(const Geometry& geometry, const LayerOptions& options, const LayerGrowth& growth,
+               std::span<const OuterWall> outer_walls) {
     validate(options);
+    const Walls walls{geometry, outer_walls};
+    const std::size_t elements = geometry.elements.size() + outer_walls.size();
     Rays rays;
     rays.enabled = options.enabled;
-    rays.wake_lengths.assign(geometry.elements.size(), 0.0);
+    rays.wake_lengths.assign(elements, 0.0);
     rays.resampled.reserve(geometry.elements.size());
     for (const Element& element : geometry.elements) {
         rays.resampled.push_back(element.resampled);
         rays.jagged.push_back(outline_kind(element) == OutlineKind::jagged);
     }
+    rays.resampled.resize(elements, true);
+    rays.jagged.resize(elements, false);
     if (!options.enabled) {
-        rays.set = bare_walls(geometry);
+        rays.set = bare_walls(walls);
+        rays.outer_ends = domain_ends(rays.set, outer_walls);
         rays.counts.assign(rays.set.lines.size(), 0);
         rays.heights = LayerHeights({0.0}, std::vector<HeightColumn>(rays.set.lines.size()));
         return rays;
@@ -194,8 +234,12 @@ Rays grow_rays(const Geometry& geometry, const LayerOptions& options, const Laye
         throw OptionError("first_height", "needs one entry per element where elements have their own");
     rays.topology = options.topology;
     rays.growth = growth;
-    grow_from(geometry, {}, options, rays);
-    if (options.wake_layers && !growth.layers && !growth.wakes.empty()) add_wakes(geometry, options, rays);
+    if (!outer_walls.empty()) {
+        rays.growth.first_heights.resize(geometry.elements.size(), growth.first_height);
+        for (const OuterWall& wall : outer_walls) rays.growth.first_heights.push_back(wall.first_height);
+    }
+    grow_from(walls, {}, options, rays);
+    if (options.wake_layers && !growth.layers && !growth.wakes.empty()) add_wakes(walls, options, rays);
     return rays;
 }
 

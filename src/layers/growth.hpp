@@ -41,7 +41,8 @@ struct LayerGrowth {
     double growth = 1.2;                    ///< LayerOptions::growth
     std::optional<std::uint32_t> layers{};  ///< LayerOptions::layers
     std::optional<double> thickness{};      ///< LayerOptions::thickness, in units of the input
-    std::vector<double> first_heights{};    ///< one per element, in units of the input; empty: no element has its own
+    /// One per element, in units of the input; empty: no element has its own. 0 on outer walls without layers.
+    std::vector<double> first_heights{};
     /// Heights that columns up to isotropy reach at least, where there is room: those of the flow's boundary layers.
     /// Each element has none, or a closed chain of them in the order of its wall; they are linear in between.
     std::vector<WallHeight> least_heights{};

@@ -70,8 +70,9 @@ struct Ray {
 /// The edges of walls and outer borders. An edge that belongs to a wall and to an outer border has no layer beside it.
 struct LayerEdges {
     std::vector<std::vector<Segment>>
-        walls;                    ///< one list per element, the mesh on the left: clockwise round the element
+        walls;                    ///< one list per element, the mesh on the left: clockwise round the body
     std::vector<Segment> region;  ///< edges that bound the layer, the layer on their left
+    std::vector<Segment> sides;   ///< those of them on the sides of the domain, beside outer walls
     /// Edges of outer borders between the layer and the outer region. Each has its smaller vertex first; sorted.
     std::vector<Segment> interfaces;
 };
@@ -123,6 +124,12 @@ struct Layer {
     LayerEdges edges;                       ///< layer_edges() of this layer
     /// One per element: whether it is resampled between so many corners that it is not smooth, as iced ones are.
     std::vector<char> jagged{};
+    /// Number of outer walls, which are the last elements: their walls, rays and borders lead from one side of the
+    /// domain to the other, and none of them is closed.
+    std::size_t outer_walls = 0;
+
+    /// Returns whether an element is an outer wall.
+    bool is_outer(std::size_t element) const { return element + outer_walls >= borders.size(); }
 };
 
 /// Returns the edges of the walls and borders of a layer: Layer::edges.
@@ -144,7 +151,7 @@ LAMINA_EXPORT Layer make_layer(const Geometry& geometry, const LayerOptions& opt
 /// Measures how evenly a layer ends.
 LAMINA_EXPORT BorderSteps border_steps(const Layer& layer);
 
-/// Returns, for each element, the points of its closed outer border.
+/// Returns, for each element, the points of its outer border as a closed loop: that of an outer wall runs there and back.
 LAMINA_EXPORT std::vector<std::vector<Point>> border_loops(const Layer& layer);
 
 /// The cells between walls and outer borders, all counter-clockwise, and the pieces that they were made in.

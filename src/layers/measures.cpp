@@ -72,11 +72,13 @@ std::vector<ElementCoverage> layer_coverage(const Rays& rays) {
     for (std::size_t e = 0; e < set.elements(); ++e) {
         auto& [all, in_the_open, worst] = coverage[e];
         double most_missing = 0;
-        for (std::size_t i = set.begin[e]; i < set.begin[e + 1]; ++i) {
+        for (std::size_t i = set.begin[e]; i < rays.domain_end(e); ++i) {
             if (set.lines[i].place != RayPlace::wall) continue;
             const std::uint32_t requested = heights.column(i).asked_layers;
-            const std::uint32_t requested_cells = std::min(requested, heights.column(next[i]).asked_layers),
-                                made_cells = std::min(counts[i], counts[next[i]]);
+            const bool is_last = rays.is_outer(e) && i + 1 == rays.domain_end(e);
+            const std::uint32_t requested_cells =
+                is_last ? 0 : std::min(requested, heights.column(next[i]).asked_layers);
+            const std::uint32_t made_cells = is_last ? 0 : std::min(counts[i], counts[next[i]]);
             add_ray(counts[i] == requested, all);
             add_cells(requested_cells, made_cells, all);
             if (open[i]) add_ray(counts[i] == requested, in_the_open);
@@ -145,8 +147,9 @@ private:
 
 BorderSteps border_steps(const Layer& layer) {
     BorderSteps steps;
-    for (const std::vector<Ray>& rays : layer.rays) {
-        for (std::size_t i = 0; i < rays.size(); ++i) {
+    for (std::size_t e = 0; e < layer.rays.size(); ++e) {
+        const std::vector<Ray>& rays = layer.rays[e];
+        for (std::size_t i = 0; i + layer.is_outer(e) < rays.size(); ++i) {
             const Ray &a = rays[i], &b = rays[i + 1 < rays.size() ? i + 1 : 0];
             if (a.requested == 0 && b.requested == 0) continue;
             ++steps.columns;

@@ -127,14 +127,37 @@ struct Rays {
     std::vector<std::uint32_t> counts;  ///< number of layers on each ray
     std::vector<double> wake_lengths;   ///< one per element: length of the wake with layers, 0 without
     std::vector<WakeCore> cores;        ///< behind bases of elements whose layers go on along a wake
+    /// One per outer wall, which are the last elements: the number behind its last ray in the domain.
+    std::vector<std::size_t> outer_ends;
+
+    /// Returns the number of elements that are bodies.
+    std::size_t bodies() const { return set.elements() - outer_ends.size(); }
+    /// Returns whether an element is an outer wall.
+    bool is_outer(std::size_t element) const { return element >= bodies(); }
+    /// Returns the number behind the last ray of an element in the domain. All rays of a body are there.
+    std::size_t domain_end(std::size_t element) const {
+        return is_outer(element) ? outer_ends[element - bodies()] : set.begin[element + 1];
+    }
+};
+
+/// A straight wall on the border of the domain, as the ground is. For the rays it is a plate that goes on beyond both
+/// sides of the domain, so that layers on it end there as they would in the middle of a wall; what lies beyond the sides
+/// is left out of the layer.
+struct OuterWall {
+    /// The outline of the plate, counter-clockwise. It begins with the part of the wall that bounds the domain.
+    std::vector<Point> points;
+    std::size_t in_domain = 0;  ///< number of points on that part
+    double first_height = 0;    ///< of its layers, in units of the input; 0: it has none
 };
 
 /// Grows rays from the walls: one along the normal of each vertex, fans at sharp corners and refining rays between
 /// them. Finds the limit of each ray and the number of layers that fit below it. Neighbouring rays differ by at most
 /// one layer, every cell between them is positively oriented, and the fronts are simple and disjoint. Precondition:
 /// check_simple(geometry). Throws OptionError for options out of range, for heights below the resolution of the
-/// coordinates and for layers absurdly thicker than the input is wide.
-Rays grow_rays(const Geometry& geometry, const LayerOptions& options, const LayerGrowth& growth);
+/// coordinates and for layers absurdly thicker than the input is wide. Outer walls become elements behind those of the
+/// geometry.
+Rays grow_rays(const Geometry& geometry, const LayerOptions& options, const LayerGrowth& growth,
+               std::span<const OuterWall> outer_walls = {});
 
 /// A circle.
 struct Circle {
@@ -147,7 +170,8 @@ struct Circle {
 /// each circle, how many rays with layers end in it.
 std::vector<std::size_t> shorten_rays(std::span<const Circle> places, Rays& rays);
 
-/// Returns, for each element, its front: the closed polygon through the tips of its rays, counter-clockwise.
+/// Returns, for each element, its front: the closed polygon through the tips of its rays, counter-clockwise. Beyond the
+/// domain that of an outer wall is the wall.
 std::vector<std::vector<Point>> fronts(const Rays& rays);
 
 /// Returns the spacings of resampled walls with which their fronts would need no division by these options, wherever

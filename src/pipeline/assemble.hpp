@@ -9,6 +9,7 @@
 
 #include "decoupling/subdomain.hpp"
 #include "layers/layer.hpp"
+#include "pipeline/outer_walls.hpp"
 
 namespace lamina::pipeline {
 
@@ -27,10 +28,10 @@ std::vector<Marker> make_markers(const Geometry& geometry, const layers::Layer& 
 /// another marker has one of these names.
 LAMINA_EXPORT void split_far_field(std::span<const Point> points, std::vector<Marker>& markers, double alpha_deg);
 
-/// Takes the edges on slip walls out of the markers that are far fields, and gives them the markers `ground` (the floor
-/// where `has_ground`) and `tunnel`, of the kind symmetry. Throws OptionError where a marker has one of these names.
-LAMINA_EXPORT void mark_slip_walls(std::span<const Point> points, std::vector<Marker>& markers,
-                                   const decoupling::FarField& far_field, bool has_ground);
+/// Adds the markers of walls on the border of the domain, with these edges: of the kind symmetry where the flow slips along
+/// them. Throws OptionError where a marker has the name of one.
+LAMINA_EXPORT void add_outer_walls(std::span<const OuterWallFacts> walls, std::span<const std::vector<Segment>> edges,
+                                   std::vector<Marker>& markers);
 
 /// Returns the cells of the layer as a mesh of its own, whose points are those of the layer. Regions and layers of cells
 /// are there; pieces and markers are not.

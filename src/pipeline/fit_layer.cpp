@@ -28,8 +28,8 @@ void require_room_for_layers(const Geometry& geometry, const std::vector<std::ve
                              const layers::LayerGrowth& growth) {
     const Box bodies = bounding_box(geometry), domain = far_field.box();
     Box with_layers = bodies;
-    for (const std::vector<Point>& front : fronts)
-        for (const Point p : front) with_layers.include(p);
+    for (std::size_t e = 0; e < geometry.elements.size(); ++e)
+        for (const Point p : fronts[e]) with_layers.include(p);
     if (!decoupling::leaves_room(far_field, bodies) || decoupling::leaves_room(far_field, with_layers)) return;
     const bool by_y_plus = std::holds_alternative<YPlus>(options.first_height);
     const double thickness = std::max({bodies.lower.x - with_layers.lower.x, bodies.lower.y - with_layers.lower.y,
@@ -58,16 +58,41 @@ std::vector<layers::Circle> circles_round_unexcused(std::span<const mesh::Narrow
     return circles;
 }
 
-/// Makes rays on walls, within their far field.
-FittedLayer grow_within(const FarFieldOptions& outer, const LayerOptions& options, Geometry geometry,
-                        const ReferenceConditions& conditions, const layers::LayerGrowth& growth) {
-    decoupling::FarField far_field = decoupling::place_far_field(bounding_box(geometry), conditions.chord, outer);
-    layers::Rays rays = layers::grow_rays(geometry, options, growth);
-    if (options.enabled) require_room_for_layers(geometry, layers::fronts(rays), far_field, options, growth);
+/// Returns the sizes by which outer walls are divided: those of the bodies' walls and of the sources, which grow as the
+/// spacing of walls may.
+SizeField size_of_outer_walls(const CaseOptions& options, const Geometry& geometry,
+                              const ReferenceConditions& conditions, const layers::LayerGrowth& growth, const Box& domain,
+                              std::span<const SizeSource> finer) {
+    const sizing::SizedBodies bodies = sized_bodies(geometry, conditions);
+    std::vector<SizeSource> sources =
+        sizing::gather_size_requests(options.sizing, bodies, bodies.walls, domain).at_borders;
+    sources.insert(sources.end(), finer.begin(), finer.end());
+    SizingOptions sizing = options.sizing;
+    sizing.background.reset();
+    sizing.gradation = spacing_limits(options, growth).gradation;
+    return sizing::make_size_field(bodies.walls, sources, sizing, conditions.chord, domain);
+}
+
+/// Makes rays on walls, within their far field. `finer` are sources by which outer walls become finer than bodies ask for.
+FittedLayer grow_within(const CaseOptions& options, Geometry geometry, const ReferenceConditions& conditions,
+                        const layers::LayerGrowth& growth, std::span<const SizeSource> finer) {
+    decoupling::FarField far_field =
+        decoupling::place_far_field(bounding_box(geometry), conditions.chord, options.far_field);
+    std::vector<OuterWallFacts> outer_walls =
+        outer_wall_facts(far_field, options.far_field, options.layer.enabled, conditions, growth);
+    std::vector<layers::OuterWall> divided;
+    if (!outer_walls.empty())
+        divided = divide_outer_walls(
+            outer_walls, far_field,
+            size_of_outer_walls(options, geometry, conditions, growth, far_field.box(), finer));
+    layers::Rays rays = layers::grow_rays(geometry, options.layer, growth, divided);
+    if (options.layer.enabled)
+        require_room_for_layers(geometry, layers::fronts(rays), far_field, options.layer, growth);
     std::vector<double> front = rays.front;
     return {.geometry = std::move(geometry),
             .conditions = conditions,
             .far_field = std::move(far_field),
+            .outer_walls = std::move(outer_walls),
             .rays = std::move(rays),
             .first_front = std::move(front)};
 }
@@ -127,16 +152,24 @@ bool all_layers_fit(const layers::Rays& rays) {
 /// below division points (docs/decisions/0009). `grow` makes rays on walls. Finer walls ask for finer ones beside them, which
 /// three rounds of halving reach.
 void refine_walls_below_borders(const SurfaceOptions& surface, double least_gradation, PreparedWalls& walls,
-                                const std::function<FittedLayer(Geometry)>& grow, FittedLayer& fitted) {
+                                const std::function<FittedLayer(Geometry)>& grow, std::vector<SizeSource>& on_outer_walls,
+                                FittedLayer& fitted) {
     constexpr int max_rounds = 3;
     for (int round = 0; round < max_rounds; ++round) {
         layers::BorderOptions border = border_with_sources(fitted.border, fitted.requests.at_borders);
         border.gradation = std::max(border.gradation, least_gradation);
         const std::vector<geometry::WallSpacing> finer = layers::wall_spacings(fitted.rays, border);
         if (finer.empty()) return;
-        walls.limits.walls.insert(walls.limits.walls.end(), finer.begin(), finer.end());
+        const std::size_t sources = on_outer_walls.size();
+        for (const geometry::WallSpacing& wall : finer) {
+            if (wall.element < fitted.geometry.elements.size())
+                walls.limits.walls.push_back(wall);
+            else if (fitted.outer_walls[wall.element - fitted.geometry.elements.size()].first_height > 0)
+                on_outer_walls.push_back({.a = wall.a, .b = wall.b, .size = wall.spacing});
+        }
         Geometry prepared = surface::prepare_within(walls.given, surface, walls.limits, fitted.conditions.chord);
-        if (same_points(prepared, fitted.geometry)) return;  // the rest are stretches that keep their given points
+        // The rest are stretches that keep their given points.
+        if (same_points(prepared, fitted.geometry) && on_outer_walls.size() == sources) return;
         fitted = grow(std::move(prepared));
     }
 }
@@ -188,8 +221,9 @@ FittedLayer fit_layer(PreparedWalls walls, const CaseOptions& options, const Ref
                       const layers::LayerGrowth& growth, std::vector<ElementWake> wakes) {
     const LayerOptions& layer = options.layer;
     const layers::BorderOptions border = border_options(options, conditions.chord, {});
+    std::vector<SizeSource> on_outer_walls;
     const auto grow = [&](Geometry prepared) {
-        FittedLayer fitted = grow_within(options.far_field, layer, std::move(prepared), conditions, growth);
+        FittedLayer fitted = grow_within(options, std::move(prepared), conditions, growth, on_outer_walls);
         fitted.wakes = wakes;
         fitted.border = border;
         request_sizes(options.sizing, fitted);
@@ -197,7 +231,8 @@ FittedLayer fit_layer(PreparedWalls walls, const CaseOptions& options, const Ref
     };
     FittedLayer fitted = grow(std::move(walls.prepared));
     if (layer.enabled && layers::uses("refine_walls"))
-        refine_walls_below_borders(options.surface, min_wall_gradation / options.fineness, walls, grow, fitted);
+        refine_walls_below_borders(options.surface, min_wall_gradation / options.fineness, walls, grow, on_outer_walls,
+                                   fitted);
     // Where all layers are made, nothing is in their way; equal numbers of layers are a promise.
     if (layer.enabled && !layer.equal_fans && !all_layers_fit(fitted.rays) && layers::uses("end_obtuse") &&
         end_obtuse_columns(layer.topology, options.decomposition, fitted)) {

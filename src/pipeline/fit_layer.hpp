@@ -11,6 +11,7 @@
 #include "layers/stages.hpp"
 #include "mesh/piece_check.hpp"
 #include "pipeline/flow_guidance.hpp"
+#include "pipeline/outer_walls.hpp"
 #include "sizing/requests.hpp"
 #include "surface/spacing_limits.hpp"
 
@@ -28,6 +29,7 @@ struct FittedLayer {
     Geometry geometry;  ///< the walls below
     ReferenceConditions conditions;
     decoupling::FarField far_field;
+    std::vector<OuterWallFacts> outer_walls;  ///< those of the far field
     layers::Rays rays;
     sizing::SizeRequests requests{};
     std::vector<ElementWake> wakes{};       ///< of the flow, one per element or none

@@ -54,9 +54,13 @@ void summarize_layer(const FittedLayer& fitted, const layers::Layer& layer, cons
     for (const auto& wall : layer.walls) result.surface_vertices += wall.size();
     result.layer_coverage = layer.coverage;
     if (!options.enabled) return;
+    const std::size_t bodies = fitted.geometry.elements.size();
+    for (std::size_t k = 0; k < fitted.outer_walls.size(); ++k)
+        if (const OuterWallFacts& wall = fitted.outer_walls[k]; wall.first_height > 0)
+            result.outer_walls.push_back({wall.name, wall.first_height, layer.coverage[bodies + k]});
+    result.layer_coverage.resize(bodies);
     result.border_steps = border_steps(layer);
-    for (std::size_t e = 0; e < layer.walls.size(); ++e)
-        result.first_heights.push_back(layer.growth.first_height_on(e));
+    for (std::size_t e = 0; e < bodies; ++e) result.first_heights.push_back(layer.growth.first_height_on(e));
     if (const auto* y_plus = std::get_if<YPlus>(&options.first_height)) result.y_plus = *y_plus;
 }
 
@@ -78,18 +82,19 @@ std::vector<double> first_heights_of_markers(const MeshResult& result, std::span
     for (const Marker& marker : markers) {
         if (next < result.geometry.elements.size() && marker.name == result.geometry.elements[next].name) ++next;
         heights.push_back(result.first_heights[next - 1]);
+        for (const OuterWallLayer& wall : result.outer_walls)
+            if (wall.name == marker.name) heights.back() = wall.first_height;
     }
     return heights;
 }
 
-/// Divides the far field into inlet and outlet (`splits`), and takes slip walls out of it.
-void divide_far_field(const FittedLayer& fitted, const FarFieldOptions& options, bool splits, MeshDriver& driver,
+/// Divides the far field into inlet and outlet (`splits`), and adds the markers of outer walls.
+void complete_markers(const FittedLayer& fitted, const layers::Layer& layer, bool splits, MeshDriver& driver,
                       std::span<const Point> points, std::vector<Marker>& markers) {
-    const bool has_slip_walls = options.tunnel || options.ground;
-    if (!splits && !has_slip_walls) return;
+    add_outer_walls(fitted.outer_walls, std::span(layer.edges.walls).last(layer.outer_walls), markers);
+    if (!splits) return;
     driver.place_far_field();
-    if (has_slip_walls) mark_slip_walls(points, markers, fitted.far_field, options.ground.has_value());
-    if (splits || options.tunnel) split_far_field(points, markers, fitted.conditions.alpha_deg);
+    split_far_field(points, markers, fitted.conditions.alpha_deg);
 }
 
 }  // namespace
@@ -106,28 +111,30 @@ MadeMesh make_mesh(const FittedLayer& fitted, const CaseOptions& options, MeshDr
     clock.begin("sizing");
     const SizeField size = sizing::make_size_field(border_loops(layer), fitted.requests.sources, options.sizing,
                                                    fitted.conditions.chord, fitted.far_field.box());
+    const RegionBorders region = close_domain(layer, fitted.far_field, size);
     std::optional<RunEstimate> estimate;
     driver.lead([&] {
-        estimate =
-            estimate_within_limits(options.refine, options.sizing.gradation, layer, size, fitted.far_field, budget);
+        estimate = estimate_within_limits(options.refine, options.sizing.gradation, layer, region, size,
+                                          fitted.far_field, budget);
         result.estimate = *estimate;
     });
     clock.end(&StageSeconds::sizing);
 
     clock.begin("decoupling", estimate);
     const DecoupledBorders borders = driver.decouple(
-        {layer.points, layer.borders, size, fitted.far_field, options.decoupling},
+        {region.points, region.borders, size, fitted.far_field, options.decoupling},
         refine_within(options.refine, fitted.conditions.chord, budget), triangles_beyond_layer(result.estimate, layer));
-    std::vector<Marker> markers =
-        make_markers(fitted.geometry, layer, {borders.far_field.begin(), borders.far_field.end()}, options.assemble);
-    divide_far_field(fitted, options.far_field, options.inlet_outlet, driver, borders.points, markers);
+    std::vector<Segment> far_field = region.far_field;
+    far_field.insert(far_field.end(), borders.far_field.begin(), borders.far_field.end());
+    std::vector<Marker> markers = make_markers(fitted.geometry, layer, std::move(far_field), options.assemble);
+    complete_markers(fitted, layer, options.inlet_outlet || options.far_field.tunnel, driver, borders.points, markers);
     clock.end(&StageSeconds::decoupling);
 
     clock.begin("layer triangulation, refinement and check of pieces");
     mesh::PiecewiseCheck check(
         borders.points,
         {.min_angle_deg = options.refine.min_angle_deg, .first_heights = first_heights_of_markers(result, markers)},
-        driver.matched_elsewhere(layer));
+        driver.matched_elsewhere(region.points.size()));
     core::BusyTimes times;
     MadePieces pieces =
         driver.make({layer, options.layer.topology, options.decomposition, markers, check, times, clock});

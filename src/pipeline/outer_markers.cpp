@@ -1,4 +1,4 @@
-// The outer boundary as inlet and outlet, ground and tunnel.
+// The outer boundary as inlet and outlet, and its walls.
 #include <algorithm>
 #include <initializer_list>
 #include <iterator>
@@ -43,25 +43,13 @@ void split_far_field(std::span<const Point> points, std::vector<Marker>& markers
         if (!part->edges.empty()) markers.push_back(std::move(*part));
 }
 
-void mark_slip_walls(std::span<const Point> points, std::vector<Marker>& markers, const decoupling::FarField& far_field,
-                     bool has_ground) {
-    require_free_names(markers, {"ground", "tunnel"}, has_ground ? "ground" : "tunnel");
-    Marker ground{"ground", MarkerKind::symmetry, {}}, tunnel{"tunnel", MarkerKind::symmetry, {}};
-    // Edges of the floor have the very y of its corners, and so have those of the ceiling.
-    const auto lies_on = [&](const Segment& edge, double y) {
-        return points[edge.a.index()].y == y && points[edge.b.index()].y == y;
-    };
-    for (Marker& marker : markers) {
-        if (marker.kind != MarkerKind::far_field) continue;
-        std::erase_if(marker.edges, [&](const Segment& edge) {
-            const bool on_floor = lies_on(edge, far_field.floor);
-            if (!on_floor && !lies_on(edge, far_field.ceiling)) return false;
-            (on_floor && has_ground ? ground : tunnel).edges.push_back(edge);
-            return true;
-        });
-    }
-    for (Marker* part : {&ground, &tunnel})
-        if (!part->edges.empty()) markers.push_back(std::move(*part));
+void add_outer_walls(std::span<const OuterWallFacts> walls, std::span<const std::vector<Segment>> edges,
+                     std::vector<Marker>& markers) {
+    for (const OuterWallFacts& wall : walls)
+        require_free_names(markers, {wall.name}, wall.name == "ground" ? "ground" : "tunnel");
+    for (std::size_t k = 0; k < walls.size(); ++k)
+        markers.push_back({walls[k].name,
+                           walls[k].kind == OuterWallKind::slip ? MarkerKind::symmetry : MarkerKind::wall, edges[k]});
 }
 
 }  // namespace lamina::pipeline

@@ -41,7 +41,7 @@ struct CellTop {
 std::vector<CellTop> cell_tops(const layers::Rays& rays, std::size_t element) {
     const layers::LayeredRays layered = layers::layered_rays(rays);
     std::vector<CellTop> tops;
-    const std::vector<layers::FrontCorner> corners = layers::front_corners(layered)[element];
+    const std::vector<layers::FrontCorner> corners = layers::front_corners(rays)[element];
     for (std::size_t k = 0; k < corners.size(); ++k) {
         const layers::FrontCorner &corner = corners[k], &next = corners[(k + 1) % corners.size()];
         const Point a = layers::place_of(layered, corner), b = layers::place_of(layered, next);

@@ -22,13 +22,18 @@ namespace lamina::layers {
 
 // The corners of fronts, and the fronts as points.
 
-std::vector<std::vector<FrontCorner>> front_corners(const LayeredRays& rays) {
-    const auto& [set, heights, counts] = rays;
+std::vector<std::vector<FrontCorner>> front_corners(const Rays& rays) {
+    const RaySet& set = rays.set;
+    const std::vector<std::uint32_t>& counts = rays.counts;
     std::vector<std::vector<FrontCorner>> fronts(set.elements());
-    const std::vector<CleftEnd> clefts = cleft_ends(rays);
+    const std::vector<CleftEnd> clefts = cleft_ends(layered_rays(rays));
     std::size_t cleft = 0;  // the next one
     for (std::size_t e = 0; e < set.elements(); ++e) {
         const std::size_t begin = set.begin[e], end = set.begin[e + 1];
+        if (rays.is_outer(e)) {
+            for (std::size_t i = begin; i < end; ++i) fronts[e].push_back({i, i < rays.domain_end(e) ? counts[i] : 0});
+            continue;
+        }
         for (std::size_t i = begin; i < end; ++i) {
             if (cleft < clefts.size() && i == clefts[cleft].first) {
                 fronts[e].push_back({i, counts[i], 0, clefts[cleft]});
@@ -46,14 +51,19 @@ std::vector<std::vector<FrontCorner>> front_corners(const LayeredRays& rays) {
     return fronts;
 }
 
+std::size_t corners_in_domain(const Rays& rays, std::size_t element, std::span<const FrontCorner> corners) {
+    return rays.is_outer(element) ? rays.domain_end(element) - rays.set.begin[element] : corners.size();
+}
+
 Point place_of(const LayeredRays& rays, const FrontCorner& corner) {
-    return corner.after > 0 ? rays.set.lines[corner.ray].corner_after[corner.after - 1] : rays.tip(corner.ray);
+    return corner.after > 0 ? rays.set.lines[corner.ray].corner_after[corner.after - 1]
+                            : rays.point(corner.ray, corner.layers);
 }
 
 std::vector<std::vector<Point>> fronts(const Rays& rays) {
     const LayeredRays layered = layered_rays(rays);
     std::vector<std::vector<Point>> result;
-    for (const std::vector<FrontCorner>& corners : front_corners(layered)) {
+    for (const std::vector<FrontCorner>& corners : front_corners(rays)) {
         std::vector<Point>& front = result.emplace_back();
         front.reserve(corners.size());
         for (const FrontCorner& corner : corners) front.push_back(place_of(layered, corner));
@@ -67,16 +77,27 @@ LayerEdges layer_edges(const Layer& layer) {
     LayerEdges result;
     std::vector<Segment> wall_edges, border_edges;  // both counter-clockwise
     for (const auto& wall : layer.walls) {
+        const bool open = layer.is_outer(result.walls.size());
         auto& clockwise = result.walls.emplace_back();
-        for (std::size_t i = 0; i < wall.size(); ++i) {
+        for (std::size_t i = 0; i + open < wall.size(); ++i) {
             const VertexId a = wall[i], b = wall[i + 1 < wall.size() ? i + 1 : 0];
             wall_edges.push_back({a, b});
             clockwise.push_back({b, a});
         }
     }
-    for (const auto& border : layer.borders)
-        for (std::size_t i = 0; i < border.size(); ++i)
+    for (std::size_t e = 0; e < layer.borders.size(); ++e) {
+        const std::vector<VertexId>& border = layer.borders[e];
+        for (std::size_t i = 0; i + layer.is_outer(e) < border.size(); ++i)
             border_edges.push_back({border[i], border[i + 1 < border.size() ? i + 1 : 0]});
+    }
+    for (std::size_t e = 0; e < layer.rays.size(); ++e) {
+        if (!layer.is_outer(e) || layer.rays[e].empty()) continue;
+        const Ray &first = layer.rays[e].front(), &last = layer.rays[e].back();
+        for (std::uint32_t n = 1; n <= first.layers; ++n)
+            result.sides.push_back({first.vertex(n - 1), first.vertex(n)});
+        for (std::uint32_t n = 1; n <= last.layers; ++n) result.sides.push_back({last.vertex(n), last.vertex(n - 1)});
+    }
+    result.region = result.sides;
 
     std::sort(wall_edges.begin(), wall_edges.end());
     std::sort(border_edges.begin(), border_edges.end());
@@ -94,9 +115,11 @@ LayerEdges layer_edges(const Layer& layer) {
 std::vector<std::vector<Point>> border_loops(const Layer& layer) {
     std::vector<std::vector<Point>> loops;
     for (const auto& border : layer.borders) {
+        const bool back = layer.is_outer(loops.size());
         std::vector<Point>& loop = loops.emplace_back();
         loop.reserve(border.size());
         for (VertexId v : border) loop.push_back(layer.points[v.index()]);
+        if (back && loop.size() > 2) loop.insert(loop.end(), loop.rbegin() + 1, loop.rend() - 1);
     }
     return loops;
 }
@@ -168,7 +191,7 @@ std::vector<geometry::WallSpacing> wall_spacings(const Rays& rays, const BorderO
     constexpr double margin = 0.97;  // for walls whose whole numbers of edges differ from those asked for
     validate(options);
     const LayeredRays layered = layered_rays(rays);
-    const FrontCorners corners = front_corners(layered);
+    const FrontCorners corners = front_corners(rays);
     std::vector<std::vector<double>> least_requests(corners.size());
     for (std::size_t e = 0; e < corners.size(); ++e)
         for (std::size_t k = 0; k < corners[e].size(); ++k)
@@ -177,7 +200,8 @@ std::vector<geometry::WallSpacing> wall_spacings(const Rays& rays, const BorderO
     std::vector<geometry::WallSpacing> spacings;
     for (std::size_t e = 0; e < corners.size(); ++e) {
         if (!rays.resampled[e]) continue;
-        for (std::size_t k = 0; k < corners[e].size(); ++k) {
+        const std::size_t shown = corners_in_domain(rays, e, corners[e]) - rays.is_outer(e);
+        for (std::size_t k = 0; k < shown; ++k) {
             if (corners[e][k].cleft || !is_above_wall(rays, corners[e], k)) continue;
             const WallPart wall = wall_below(rays, corners[e], k);
             const double excess = division.excess[e][k] / target_slack;
@@ -190,7 +214,7 @@ std::vector<geometry::WallSpacing> wall_spacings(const Rays& rays, const BorderO
 Layer close_border(const Rays& rays, const BorderOptions& options) {
     validate(options);
     const LayeredRays layered = layered_rays(rays);
-    const FrontCorners corners = front_corners(layered);
+    const FrontCorners corners = front_corners(rays);
     const std::vector<std::vector<double>> whole_up_to = whole_tops(rays, corners);
     Layer layer = build_layer(rays, corners, divide_fronts(layered, corners, options, {}, whole_up_to));
     if (rays.enabled) layer.coverage = layer_coverage(rays);

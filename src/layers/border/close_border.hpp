@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "layers/border/clefts.hpp"
@@ -22,8 +23,11 @@ struct FrontCorner {
 
 /// Returns the corners of each element's front, which passes the ends of clefts by (clefts.hpp). The rays of a fan that
 /// have no layers share one corner. A corner of the wall without a ray is one of the front's if neither ray beside it
-/// has layers.
-std::vector<std::vector<FrontCorner>> front_corners(const LayeredRays& rays);
+/// has layers. The front of an outer wall ends with the wall beyond the domain.
+std::vector<std::vector<FrontCorner>> front_corners(const Rays& rays);
+
+/// Returns the number of an element's corners in the domain, which come first.
+std::size_t corners_in_domain(const Rays& rays, std::size_t element, std::span<const FrontCorner> corners);
 
 /// Returns the place of a front's corner.
 Point place_of(const LayeredRays& rays, const FrontCorner& corner);

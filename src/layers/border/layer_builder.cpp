@@ -59,6 +59,11 @@ private:
         return VertexId(layer_.points.size() - 1);
     }
 
+    /// Returns the number of edges of a front in the domain.
+    std::size_t edges_in_domain(std::size_t element) const {
+        return corners_in_domain(rays_, element, corners_[element]) - rays_.is_outer(element);
+    }
+
     const FrontCorner& corner_after(std::size_t element, std::size_t k) const {
         return corners_[element][(k + 1) % corners_[element].size()];
     }
@@ -92,8 +97,9 @@ private:
         for (std::size_t e = 0; e < set_.elements(); ++e) {
             std::vector<VertexId>& wall = layer_.walls[e];
             wall_divisions_[e].resize(corners_[e].size());
+            const std::size_t edges = edges_in_domain(e);
             std::size_t k = 0;  // the next corner of the front
-            for (std::size_t i = set_.begin[e]; i < set_.begin[e + 1]; ++i) {
+            for (std::size_t i = set_.begin[e]; i < rays_.domain_end(e); ++i) {
                 const Point origin = set_.lines[i].origin;
                 const bool on_wall = set_.lines[i].place == RayPlace::wall;
                 if (on_wall && (wall.empty() || origin != layer_.points[wall.back().index()])) {
@@ -105,7 +111,7 @@ private:
                     origin_of_ray_[i] = wall.back();
                 }
                 const auto divide_edge_behind = [&](std::size_t after) {
-                    if (k < corners_[e].size() && corners_[e][k].ray == i && corners_[e][k].after == after)
+                    if (k < edges && corners_[e][k].ray == i && corners_[e][k].after == after)
                         divide_wall(e, k++);
                 };
                 divide_edge_behind(0);
@@ -115,7 +121,7 @@ private:
                     divide_edge_behind(corner_after_ray_[i].size());
                 }
             }
-            assert(k == corners_[e].size());
+            assert(k == edges);
             for (const WakeCore& core : rays_.cores)
                 if (core.element == e) place_base(core);
         }
@@ -174,17 +180,20 @@ private:
 
     void place_ray_points() {
         std::size_t total = layer_.points.size();
-        for (std::size_t i = 0; i < set_.lines.size(); ++i) {
-            first_point_[i] = total;
-            total += rays_.counts[i];
-        }
+        std::vector<std::uint32_t> counts = rays_.counts;
+        for (std::size_t e = 0; e < set_.elements(); ++e)
+            for (std::size_t i = set_.begin[e]; i < set_.begin[e + 1]; ++i) {
+                if (i >= rays_.domain_end(e)) counts[i] = 0;
+                first_point_[i] = total;
+                total += counts[i];
+            }
         layer_.points.resize(total);
         layer_.layer_of_point.resize(total);
         core::parallel_for(set_.lines.size(), 4096, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
                 const RayLine& line = set_.lines[i];
                 const std::span<const double> heights = rays_.heights.of(i);
-                for (std::uint32_t n = 1; n <= rays_.counts[i]; ++n) {
+                for (std::uint32_t n = 1; n <= counts[i]; ++n) {
                     layer_.points[first_point_[i] + n - 1] = line.origin + (heights[n] * line.direction + line.shift);
                     layer_.layer_of_point[first_point_[i] + n - 1] = static_cast<std::uint16_t>(n);
                 }
@@ -194,12 +203,15 @@ private:
 
     void place_borders() {
         layer_.borders.resize(set_.elements());
+        layer_.outer_walls = rays_.outer_ends.size();
         for (std::size_t e = 0; e < set_.elements(); ++e) {
             std::vector<VertexId>& border = layer_.borders[e];
-            for (std::size_t k = 0; k < corners_[e].size(); ++k) {
+            const std::size_t corners = corners_in_domain(rays_, e, corners_[e]), edges = edges_in_domain(e);
+            for (std::size_t k = 0; k < corners; ++k) {
                 const FrontCorner &corner = corners_[e][k], &after = corner_after(e, k);
                 const std::size_t first = border.size();
                 border.push_back(vertex_at(corner));
+                if (k == edges) break;
                 if (corner.layers == 0 && after.layers == 0) {
                     border.insert(border.end(), wall_divisions_[e][k].begin(), wall_divisions_[e][k].end());
                 } else {
@@ -236,7 +248,7 @@ private:
     void describe_rays() {
         layer_.rays.resize(set_.elements());
         for (std::size_t e = 0; e < set_.elements(); ++e) {
-            for (std::size_t i = set_.begin[e]; i < set_.begin[e + 1]; ++i) {
+            for (std::size_t i = set_.begin[e]; i < rays_.domain_end(e); ++i) {
                 const HeightColumn& column = rays_.heights.column(i);
                 const std::uint32_t count = rays_.counts[i];
                 layer_.rays[e].push_back({.origin = origin_of_ray_[i],

@@ -16,8 +16,8 @@ namespace lamina::layers {
 // The outer border cut into the stretches between the tips of neighbouring rays.
 
 CellColumns::CellColumns(const Layer& layer, std::size_t element)
-    : rays_(layer.rays[element]), border_(layer.borders[element]) {
-    border_.push_back(border_.front());
+    : rays_(layer.rays[element]), is_open_(layer.is_outer(element)), border_(layer.borders[element]) {
+    if (!is_open_) border_.push_back(border_.front());
     for (const LayerCleft& cleft : layer.clefts) {
         if (cleft.element != element) continue;
         assert(cleft.first <= cleft.corner && cleft.corner < cleft.last && cleft.last < rays_.size());
@@ -41,7 +41,7 @@ CellColumns::CellColumns(const Layer& layer, std::size_t element)
 }
 
 CellColumn CellColumns::operator[](std::size_t i) const {
-    const std::size_t n = size(), before = (i + n - 1) % n, second = (i + 1) % n, after = (i + 2) % n;
+    const std::size_t n = rays_.size(), before = (i + n - 1) % n, second = (i + 1) % n, after = (i + 2) % n;
     CellColumn column{rays_[i], rays_[second], border_between_tips(i), {}, {}, rays_[before], rays_[after]};
     if (border_runs_along(before, i)) column.up = border_between_tips(before);
     if (border_runs_along(after, second)) column.down = border_between_tips(second);

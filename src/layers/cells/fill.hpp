@@ -32,13 +32,15 @@ public:
     /// Makes the columns of this element of a layer. Keeps a reference to its rays.
     CellColumns(const Layer& layer, std::size_t element);
 
-    std::size_t size() const { return rays_.size(); }
+    /// Returns the number of columns: that of the rays, and one less on an outer wall.
+    std::size_t size() const { return rays_.size() - is_open_; }
 
     /// Returns the column between ray i and the next one.
     CellColumn operator[](std::size_t i) const;
 
 private:
     std::span<const Ray> rays_;
+    bool is_open_;
     /// The outer border, through the tips of all rays, those inside closed clefts included. The first vertex stands at
     /// its end again.
     std::vector<VertexId> border_;

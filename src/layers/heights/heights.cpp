@@ -125,6 +125,7 @@ private:
 
 /// Returns the asked heights on one element.
 std::vector<double> asked_on_element(const RaySet& own, const LayerGrowth& growth) {
+    if (growth.first_height == 0) return std::vector<double>(own.lines.size(), 0.0);
     const LawHeights law(own, growth);
     std::vector<double> asked(own.lines.size());
     if (growth.layers) {
@@ -319,6 +320,11 @@ LayerHeights columns_up_to(const RaySet& set, const LayerGrowth& growth, std::sp
     columns.reserve(set.lines.size());
     for (std::size_t e = 0; e < set.elements(); ++e) {
         const std::size_t begin = set.begin[e], count = set.begin[e + 1] - begin;
+        if (growth.first_height_on(e) == 0) {
+            columns.resize(begin + count, {.first = table.size()});
+            table.push_back(0);
+            continue;
+        }
         ElementColumns(rays_of_element(set, e), growth_on_element(growth, e), asked.subspan(begin, count),
                        front.subspan(begin, count))
             .append_to(table, columns);

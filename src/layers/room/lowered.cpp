@@ -113,10 +113,14 @@ std::vector<ObtuseCell> obtuse_cells(const Layer& layer, const LayerCells& cells
 
 bool end_columns_below(std::span<const ObtuseCell> cells, Rays& rays) {
     const std::vector<std::size_t> next = rays.set.following();
+    std::vector<std::size_t> in_domain;  // columns are counted there alone
+    for (std::size_t e = 0; e < rays.set.elements(); ++e)
+        for (std::size_t i = rays.set.begin[e]; i < rays.domain_end(e); ++i) in_domain.push_back(i);
     bool changed = false;
     for (const ObtuseCell& cell : cells) {
         if (cell.layer < 2) continue;
-        for (const std::size_t ray : {std::size_t{cell.column}, next[cell.column]}) {
+        const std::size_t first = in_domain[cell.column];
+        for (const std::size_t ray : {first, next[first]}) {
             if (rays.counts[ray] < cell.layer) continue;
             rays.limits[ray] = std::min(rays.limits[ray], rays.heights.of(ray)[cell.layer - 1u]);
             changed = true;

@@ -83,8 +83,9 @@ public:
                                       double expected_triangles) = 0;
     /// Gives the vertices of the far field their places among those of decouple(), if they have none yet.
     virtual void place_far_field() {}
-    /// Returns the first vertex beyond this layer, if processes match the borders of pieces there themselves.
-    virtual std::optional<VertexId> matched_elsewhere(const layers::Layer& /*layer*/) const { return {}; }
+    /// Returns the first vertex that a separator has, if processes match the borders of pieces there themselves: that behind
+    /// those of the region.
+    virtual std::optional<VertexId> matched_elsewhere(std::size_t /*region_points*/) const { return {}; }
     /// Makes all pieces, and adds them and the layer to the check of the one that leads.
     virtual MadePieces make(const PiecesWork& work) = 0;
     /// Makes the narrow triangles that the one that leads has found known to all.
@@ -140,8 +141,8 @@ public:
     DecoupledBorders decouple(const decoupling::OuterRegion& region, const RefineOptions& refine,
                               double expected_triangles) override;
     void place_far_field() override { shared_->place(shared_->cut.far_field); }
-    std::optional<VertexId> matched_elsewhere(const layers::Layer& layer) const override {
-        return VertexId{layer.points.size()};
+    std::optional<VertexId> matched_elsewhere(std::size_t region_points) const override {
+        return VertexId{region_points};
     }
     MadePieces make(const PiecesWork& work) override;
     void tell_narrow(std::vector<mesh::NarrowTriangle>& narrow) override;

@@ -1,0 +1,120 @@
+#include "pipeline/outer_walls.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include <lamina/error.hpp>
+
+#include "decoupling/separators.hpp"
+#include "layers/growth.hpp"
+
+namespace lamina::pipeline {
+
+namespace {
+
+constexpr std::size_t min_segments_of_side = 3;
+
+/// Returns the first height of the layers on a wall.
+double first_height_of(const std::optional<OuterLayers>& layers, const char* option,
+                       const ReferenceConditions& conditions, const layers::LayerGrowth& growth) {
+    if (!layers) return growth.first_height;
+    if (const auto* height = std::get_if<Length>(&*layers)) return in_units(*height, conditions.chord);
+    if (!conditions.reynolds) throw OptionError(option, "a y+ needs reynolds, or velocity and viscosity");
+    return layers::first_height_for(std::get<OuterYPlus>(*layers).y_plus, *conditions.reynolds, conditions.chord);
+}
+
+/// Returns the plate that a wall is for the rays. Its hidden part goes on beyond both sides of the domain, far enough for
+/// columns of layers at the sides not to feel its corners, and back below:
+///
+///     :     the domain     :
+///     :                    :
+///     |_|_|___|____|___|_|_|_|      <- the wall, and columns beyond the side
+///     |_|_|___|____|___|_|_|_|      <- the hidden side of the plate
+layers::OuterWall plate(const OuterWallFacts& wall, std::vector<double> x, bool is_below) {
+    constexpr std::size_t columns_beyond = 8;
+    const std::size_t n = x.size();
+    const double first_step = x[1] - x[0], last_step = x[n - 1] - x[n - 2];
+    const double depth = (is_below ? -1 : 1) * std::min(std::abs(first_step), std::abs(last_step));
+    layers::OuterWall outer{{}, n, wall.first_height};
+    std::vector<double> hidden;  // from the end of the wall beyond both sides to its beginning
+    for (std::size_t i = 1; i <= columns_beyond; ++i) hidden.push_back(x[n - 1] + static_cast<double>(i) * last_step);
+    for (const double at : x) outer.points.push_back({at, wall.y});
+    for (const double at : hidden) outer.points.push_back({at, wall.y});
+    for (std::size_t i = hidden.size(); i-- > 0;) outer.points.push_back({hidden[i], wall.y + depth});
+    for (std::size_t i = n; i-- > 0;) outer.points.push_back({x[i], wall.y + depth});
+    for (std::size_t i = 1; i <= columns_beyond; ++i)
+        outer.points.push_back({x[0] - static_cast<double>(i) * first_step, wall.y + depth});
+    for (std::size_t i = columns_beyond; i > 0; --i)
+        outer.points.push_back({x[0] - static_cast<double>(i) * first_step, wall.y});
+    return outer;
+}
+
+}  // namespace
+
+std::vector<OuterWallFacts> outer_wall_facts(const decoupling::FarField& far_field, const FarFieldOptions& options,
+                                             bool layers_enabled, const ReferenceConditions& conditions,
+                                             const layers::LayerGrowth& growth) {
+    std::vector<OuterWallFacts> walls;
+    const auto add = [&](const char* name, double y, OuterWallKind kind, const std::optional<OuterLayers>& layers,
+                         const char* option) {
+        const bool has_layers = layers_enabled && kind != OuterWallKind::slip;
+        walls.push_back({name, y, kind, has_layers ? first_height_of(layers, option, conditions, growth) : 0});
+    };
+    if (options.ground)
+        add("ground", far_field.floor, options.ground_wall, options.ground_layers, "ground_layers");
+    else if (options.tunnel)
+        add("floor", far_field.floor, options.tunnel_walls, options.tunnel_layers, "tunnel_layers");
+    if (options.tunnel) add("ceiling", far_field.ceiling, options.tunnel_walls, options.tunnel_layers, "tunnel_layers");
+    return walls;
+}
+
+std::vector<layers::OuterWall> divide_outer_walls(std::span<const OuterWallFacts> walls,
+                                                  const decoupling::FarField& far_field, const SizeField& size) {
+    const Box domain = far_field.box();
+    std::vector<layers::OuterWall> divided;
+    for (const OuterWallFacts& wall : walls) {
+        // A body lies on the left of its outline.
+        const bool is_below = wall.y == far_field.floor;
+        const double begin = is_below ? domain.upper.x : domain.lower.x, end = is_below ? domain.lower.x : domain.upper.x;
+        std::vector<double> x{begin};
+        for (const Point p :
+             decoupling::divide_separator({begin, wall.y}, {end, wall.y}, size, min_segments_of_side))
+            x.push_back(p.x);
+        x.push_back(end);
+        divided.push_back(plate(wall, std::move(x), is_below));
+    }
+    return divided;
+}
+
+RegionBorders close_domain(const layers::Layer& layer, const decoupling::FarField& far_field, const SizeField& size) {
+    RegionBorders result{layer.points, layer.borders, layer.edges.sides};
+    if (layer.outer_walls == 0) return result;
+    const std::span<const std::vector<VertexId>> walls = std::span(layer.borders).last(layer.outer_walls);
+    result.borders.resize(layer.borders.size() - walls.size());
+    std::vector<VertexId> loop;
+    const auto add_point = [&](Point p) {
+        result.points.push_back(p);
+        loop.push_back(VertexId(result.points.size() - 1));
+    };
+    // Each side begins at the end of a wall, and the next wall begins at its end.
+    const auto [lower_left, lower_right, upper_right, upper_left] = far_field.box().corners();
+    for (std::size_t k = 0; k < walls.size(); ++k) {
+        const std::vector<VertexId>& next = walls[(k + 1) % walls.size()];
+        loop.insert(loop.end(), walls[k].begin(), walls[k].end());
+        const std::size_t first = loop.size() - 1;
+        std::vector<Point> corners{layer.points[walls[k].back().index()]};
+        if (walls.size() == 1) corners.insert(corners.end(), {upper_left, upper_right});
+        corners.push_back(layer.points[next.front().index()]);
+        for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
+            if (i > 0) add_point(corners[i]);
+            for (const Point p : decoupling::divide_separator(corners[i], corners[i + 1], size, min_segments_of_side))
+                add_point(p);
+        }
+        for (std::size_t i = first; i < loop.size(); ++i)
+            result.far_field.push_back({i + 1 < loop.size() ? loop[i + 1] : next.front(), loop[i]});
+    }
+    result.borders.push_back(std::move(loop));
+    return result;
+}
+
+}  // namespace lamina::pipeline

@@ -1,0 +1,45 @@
+// The walls on the border of the domain, as the ground is, and the border that they are a part of.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include <lamina/pipeline.hpp>
+
+#include "decoupling/far_field.hpp"
+#include "layers/layer.hpp"
+#include "layers/stages.hpp"
+
+namespace lamina::pipeline {
+
+/// A wall on the border of the domain, as the options ask for it.
+struct OuterWallFacts {
+    std::string name;         ///< of its marker: `ground`, `floor` or `ceiling`
+    double y = 0;             ///< where it lies
+    OuterWallKind kind{};     ///< how the flow meets it
+    double first_height = 0;  ///< of its layers, in units of the input; 0: it has none
+};
+
+/// Returns the walls of this far field, the lower one first. Those that are no slip walls have layers, unless layers are
+/// disabled, with a first height of their own or that of `growth`. Throws OptionError for a y+ without a Reynolds number.
+std::vector<OuterWallFacts> outer_wall_facts(const decoupling::FarField& far_field, const FarFieldOptions& options,
+                                             bool layers_enabled, const ReferenceConditions& conditions,
+                                             const layers::LayerGrowth& growth);
+
+/// Returns these walls with vertices at distances that follow the size field.
+std::vector<layers::OuterWall> divide_outer_walls(std::span<const OuterWallFacts> walls,
+                                                  const decoupling::FarField& far_field, const SizeField& size);
+
+/// The borders of the outer region: of the bodies with their layers and, last, of the domain, if that has walls.
+struct RegionBorders {
+    std::vector<Point> points;                   ///< those of the layer, then those on the sides of the domain
+    std::vector<std::vector<VertexId>> borders;  ///< as decoupling::decouple() takes them
+    std::vector<Segment> far_field;              ///< edges of the sides, beside the layer and beyond, the mesh on the left
+};
+
+/// Closes the border of the domain: sides without walls are divided by the size field, from the ends of one wall to those of
+/// the other or to the corners of the far field.
+RegionBorders close_domain(const layers::Layer& layer, const decoupling::FarField& far_field, const SizeField& size);
+
+}  // namespace lamina::pipeline
