@@ -32,6 +32,11 @@ Json layer_cells_report(const MeshResult& result) {
         report["elements"].push_back(coverage_report(result.layer_coverage[e]));
         report["elements"].back()["name"] = result.geometry.elements[e].name;
     }
+    for (const OuterWallLayer& wall : result.outer_walls) {
+        Json& row = report["outer_walls"].emplace_back(coverage_report(wall.coverage));
+        row["name"] = wall.name;
+        row["first_height"] = wall.first_height;
+    }
     return report;
 }
 

@@ -38,8 +38,11 @@ void check_totals(const MeshCheck& check, const BoundarySummary& boundary, Defec
 void measure_boundary(std::span<const Point> points, std::span<const Marker> markers,
                       std::span<const BoundaryEdge> boundary, const MeshCheckOptions& options, MeshCheck& check) {
     check.walls = measure_walls(points, markers, boundary, options);
-    check.edges_without_first_layer = static_cast<std::size_t>(std::count_if(
-        boundary.begin(), boundary.end(), [](const BoundaryEdge& edge) { return edge.beyond_first_layer; }));
+    const std::vector<Segment> walls = sorted_wall_edges(markers);
+    check.edges_without_first_layer =
+        static_cast<std::size_t>(std::count_if(boundary.begin(), boundary.end(), [&](const BoundaryEdge& edge) {
+            return edge.beyond_first_layer && std::binary_search(walls.begin(), walls.end(), edge.ends);
+        }));
 }
 
 void check_whole_boundary(std::span<const Point> points, std::span<const Marker> markers,

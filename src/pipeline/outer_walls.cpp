@@ -52,13 +52,14 @@ layers::OuterWall plate(const OuterWallFacts& wall, std::vector<double> x, bool 
 }  // namespace
 
 std::vector<OuterWallFacts> outer_wall_facts(const decoupling::FarField& far_field, const FarFieldOptions& options,
-                                             bool layers_enabled, const ReferenceConditions& conditions,
+                                             const LayerOptions& layer, const ReferenceConditions& conditions,
                                              const layers::LayerGrowth& growth) {
     std::vector<OuterWallFacts> walls;
     const auto add = [&](const char* name, double y, OuterWallKind kind, const std::optional<OuterLayers>& layers,
                          const char* option) {
-        const bool has_layers = layers_enabled && kind != OuterWallKind::slip;
+        const bool has_layers = layer.enabled && kind != OuterWallKind::slip;
         walls.push_back({name, y, kind, has_layers ? first_height_of(layers, option, conditions, growth) : 0});
+        if (has_layers) layers::layer_growth(layer, conditions, {walls.back().first_height});  // throws
     };
     if (options.ground)
         add("ground", far_field.floor, options.ground_wall, options.ground_layers, "ground_layers");

@@ -22,9 +22,10 @@ struct OuterWallFacts {
 };
 
 /// Returns the walls of this far field, the lower one first. Those that are no slip walls have layers, unless layers are
-/// disabled, with a first height of their own or that of `growth`. Throws OptionError for a y+ without a Reynolds number.
+/// disabled, with a first height of their own or that of `growth`. Throws OptionError for a y+ without a Reynolds number, and
+/// where a height contradicts the thickness.
 std::vector<OuterWallFacts> outer_wall_facts(const decoupling::FarField& far_field, const FarFieldOptions& options,
-                                             bool layers_enabled, const ReferenceConditions& conditions,
+                                             const LayerOptions& layer, const ReferenceConditions& conditions,
                                              const layers::LayerGrowth& growth);
 
 /// Returns these walls with vertices at distances that follow the size field.

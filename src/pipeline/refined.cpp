@@ -51,9 +51,10 @@ void multiply_first_height(double factor, LayerOptions& layer) {
         std::get<YPlus>(layer.first_height).y_plus *= factor;
 }
 
-/// A layer is numbered by n x `step` of the old ones, where n is its new number.
-void refine_layer(double ratio, const ReferenceConditions& conditions, LayerOptions& layer) {
-    if (!layer.enabled) return;
+/// A layer is numbered by n x `step` of the old ones, where n is its new number. Returns the ratio of the first heights, the new
+/// one over the old one.
+double refine_layer(double ratio, const ReferenceConditions& conditions, LayerOptions& layer) {
+    if (!layer.enabled) return 1;
     if (layer.growth_law == GrowthLaw::aflr)
         throw OptionError("growth_law", "must not be aflr: its ratios are fixed, so that no other mesh is similar");
     double step = 1 / ratio;
@@ -65,14 +66,26 @@ void refine_layer(double ratio, const ReferenceConditions& conditions, LayerOpti
         step = double(*layer.layers) / double(layers);
         layer.layers = static_cast<std::uint32_t>(layers);
     }
+    double factor = 0;
     if (layer.growth_law == GrowthLaw::polynomial) {
-        multiply_first_height(core::pow_reproducible(step, layer.growth), layer);
+        factor = core::pow_reproducible(step, layer.growth);
     } else {
-        const double power = core::pow_reproducible(growth, step);
-        multiply_first_height((power - 1) / (growth - 1), layer);
+        factor = (core::pow_reproducible(growth, step) - 1) / (growth - 1);
         layer.growth = core::pow_reproducible(layer.growth, step);
     }
+    multiply_first_height(factor, layer);
     layer.max_ray_angle_deg = std::min(layer.max_ray_angle_deg / ratio, 90.0);
+    return factor;
+}
+
+void multiply_first_heights(double factor, FarFieldOptions& far_field) {
+    for (std::optional<OuterLayers>* layers : {&far_field.ground_layers, &far_field.tunnel_layers}) {
+        if (!*layers) continue;
+        if (auto* height = std::get_if<Length>(&**layers))
+            height->value *= factor;
+        else
+            std::get<OuterYPlus>(**layers).y_plus *= factor;
+    }
 }
 
 void refine_sizing(double ratio, SizingOptions& sizing) {
@@ -102,7 +115,7 @@ CaseOptions refined(const CaseOptions& options, double ratio, const ReferenceCon
     CaseOptions result = options;
     refine_surface(ratio, result.surface);
     if (ratio == 1) return result;
-    refine_layer(ratio, conditions, result.layer);
+    multiply_first_heights(refine_layer(ratio, conditions, result.layer), result.far_field);
     refine_sizing(ratio, result.sizing);
     result.fineness *= ratio;
     validate(result);
