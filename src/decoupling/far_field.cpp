@@ -63,7 +63,7 @@ double least_room(const Box& bodies) { return 0.01 * core::longer_side(bodies); 
 ///
 ///          ceiling  ________________________
 ///                  |                        |
-///           inlet  |     ,=--.__            |  outlet        the far field's half-width on either side
+///           inlet  |     ,=--.__            |  outlet
 ///                  |________________________|
 ///            floor
 FarField between_walls(FarField box, const Box& bodies, double chord, const FarFieldOptions& options) {
@@ -84,9 +84,19 @@ FarField between_walls(FarField box, const Box& bodies, double chord, const FarF
     box.floor = floor;
     if (options.tunnel) box.ceiling = ceiling;
     box.shape = FarFieldShape::outline;
-    const double left = box.center.x - radius, right = box.center.x + radius;
+    double left = box.center.x - radius, right = box.center.x + radius;
+    if (options.tunnel && options.size == FarFieldOptions{}.size) {
+        // What a body does to the flow between walls falls by a factor of 23 over one height, so that nothing of it is left
+        // there (e^(-pi x / H)). Wakes are longer.
+        constexpr double least_ahead = 10, heights_ahead = 3, least_behind = 15, heights_behind = 4;
+        const double height = ceiling - floor;
+        left = bodies.lower.x - std::max(least_ahead * chord, heights_ahead * height);
+        right = bodies.upper.x + std::max(least_behind * chord, heights_behind * height);
+    }
+    if (options.tunnel_upstream) left = bodies.lower.x - in_units(*options.tunnel_upstream, chord);
+    if (options.tunnel_downstream) right = bodies.upper.x + in_units(*options.tunnel_downstream, chord);
     box.outline = {{left, floor}, {right, floor}, {right, ceiling}, {left, ceiling}};
-    box.center.y = 0.5 * (floor + ceiling);
+    box.center = {0.5 * (left + right), 0.5 * (floor + ceiling)};
     return box;
 }
 

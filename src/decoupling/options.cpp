@@ -54,6 +54,43 @@ std::string outer_layers_text(const OuterLayers& layers) {
     return height ? core::length_text(*height) : core::concat("y+", std::get<OuterYPlus>(layers).y_plus);
 }
 
+/// Adds the option of the tunnel: its height and how far it goes on both ways.
+Option<FarFieldOptions>& add_tunnel(OptionTableBuilder<FarFieldOptions>& table) {
+    const auto set = [](FarFieldOptions& options, const OptionValue& value) {
+        const std::string text = as_word_or_number(value, "tunnel");
+        std::vector<Length> lengths;
+        try {
+            for (const std::string& part : core::split(text, ':')) {
+                lengths.push_back(core::parse_length(part));
+                require_in_range(positive_numbers, lengths.back().value, "tunnel");
+            }
+        } catch (const OptionError&) {
+            throw;
+        } catch (const UsageError& error) {
+            throw OptionError("tunnel", error.what());
+        }
+        if (lengths.size() != 1 && lengths.size() != 3)
+            throw OptionError("tunnel", "'" + text + "': a tunnel is H, or H:UP:DOWN");
+        options.tunnel = lengths[0];
+        options.tunnel_upstream = options.tunnel_downstream = std::nullopt;
+        if (lengths.size() == 1) return;
+        options.tunnel_upstream = lengths[1];
+        options.tunnel_downstream = lengths[2];
+    };
+    const auto get = [](const FarFieldOptions& options) -> std::optional<OptionValue> {
+        if (!options.tunnel) return std::nullopt;
+        std::string text = core::length_text(*options.tunnel);
+        for (const std::optional<Length>& length : {options.tunnel_upstream, options.tunnel_downstream})
+            if (length) text += ":" + core::length_text(*length);
+        return text;
+    };
+    return table.add({"tunnel", OptionKind::word, "H[:UP:DOWN]",
+                      "height of a wind tunnel with the configuration in its middle, or on its ground, and how far it goes on "
+                      "ahead of the configuration and behind it; else 10 and 15 chords, or 3 and 4 heights, the larger of "
+                      "both, unless far-field says it",
+                      "", set, get});
+}
+
 }  // namespace
 
 template <>
@@ -81,10 +118,7 @@ OptionTable<FarFieldOptions> option_rows() {
     table.add({"far-field-outline", OptionKind::word, "X0,Y0,X1,Y1,...",
                "instead: corners of a convex far field, counter-clockwise, in units of the input", "", set, get});
     const std::vector<std::string> other_shapes{"far-field-shape", "far-field-outline"};
-    table
-        .length("tunnel", "H", "height of a wind tunnel with the configuration in its middle, or on its ground",
-                positive_numbers, member_at(&FarFieldOptions::tunnel))
-        .excludes = other_shapes;
+    add_tunnel(table).excludes = other_shapes;
     table.choice("tunnel-walls", "floor and ceiling of the tunnel",
                  Choices<OuterWallKind>{{"slip", OuterWallKind::slip}, {"no-slip", OuterWallKind::no_slip}},
                  member_at(&FarFieldOptions::tunnel_walls));
@@ -131,6 +165,8 @@ void validate(const FarFieldOptions& options) {
     if (options.shape == FarFieldShape::outline) require_convex(options.outline);
     if (options.shape != FarFieldShape::box && (options.tunnel || options.ground))
         throw OptionError(options.tunnel ? "tunnel" : "ground", "needs the far field to be a box");
+    if (options.tunnel_upstream.has_value() != options.tunnel_downstream.has_value())
+        throw OptionError("tunnel", "goes on upstream and downstream by lengths that are both given, or neither");
     if (options.tunnel_walls == OuterWallKind::moving) throw OptionError("tunnel_walls", "no wall of a tunnel moves");
     const auto require = [](bool given, bool base, const char* option, const char* needed) {
         if (given && !base) throw OptionError(option, std::string("needs ") + needed);
