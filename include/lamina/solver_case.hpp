@@ -66,6 +66,9 @@ struct SolverConditions {
     std::optional<double> velocity{};     ///< of the free stream, in units of the mesh per second; empty: 1
     std::optional<Point> moment_point{};  ///< empty: a quarter of the chord behind the foremost vertex of the walls
     bool wall_functions = false;          ///< whether the first cells lie in the logarithmic layer
+    /// Names of the markers of walls that are not bodies, as ground without slip: forces on them do not count.
+    std::vector<std::string> outer_walls{};
+    std::vector<std::string> moving_walls{};  ///< those of them that move with the free stream
 };
 
 /// Returns WarningCode::unsuited_to_solver where most cells of the layer are triangles, on which simpleFoam diverges.

@@ -44,9 +44,18 @@ FlowSolver solver_of_name(const std::string& name) {
 constexpr double least_y_plus_of_wall_functions = 5;
 
 SolverConditions solver_conditions(const MeshResult& result, const CaseOptions& options) {
-    return {.reference = result.conditions,
-            .velocity = options.conditions.velocity,
-            .wall_functions = result.y_plus && result.y_plus->y_plus > least_y_plus_of_wall_functions};
+    SolverConditions conditions{
+        .reference = result.conditions,
+        .velocity = options.conditions.velocity,
+        .wall_functions = result.y_plus && result.y_plus->y_plus > least_y_plus_of_wall_functions};
+    const FarFieldOptions& far_field = options.far_field;
+    if (far_field.ground && far_field.ground_wall != OuterWallKind::slip) conditions.outer_walls.push_back("ground");
+    if (far_field.ground_wall == OuterWallKind::moving) conditions.moving_walls = conditions.outer_walls;
+    if (far_field.tunnel && far_field.tunnel_walls != OuterWallKind::slip) {
+        if (!far_field.ground) conditions.outer_walls.push_back("floor");
+        conditions.outer_walls.push_back("ceiling");
+    }
+    return conditions;
 }
 
 /// Returns what the solver makes of the mesh and of the speed.

@@ -43,6 +43,16 @@ std::string symmetry_patches(const std::vector<std::string>& names) {
     return patches;
 }
 
+/// Returns the velocities of walls that move with the free stream, to stand before another patch. Names win over the
+/// pattern that all walls match.
+std::string moving_patches(const std::vector<std::string>& names) {
+    std::string patches;
+    for (const std::string& name : names)
+        patches += fmt::format("{}\n    {{\n        {}\n    }}\n    ", name,
+                               condition("fixedValue", "uniform $streamVelocity"));
+    return patches;
+}
+
 /// Adds what says which solver it is, and what a gas needs.
 void add_medium(const CaseFlow& flow, Words& words) {
     words["APPLICATION"] = flow.time ? "pimpleFoam" : flow.compressible ? "rhoSimpleFoam" : "simpleFoam";
@@ -137,11 +147,12 @@ Words openfoam_words(const CaseFlow& flow) {
     words["TITLE"] = fmt::format("Reynolds number {}, {}angle of attack {} degrees, chord {}", flow.reynolds, mach,
                                  flow.alpha_deg, flow.chord);
     words["FAR_FIELD"] = key_of_patches(flow.far_fields);
-    words["WALL"] = key_of_patches(flow.walls);
+    words["WALL"] = key_of_patches(flow.all_walls());
+    words["MOVING_WALLS"] = moving_patches(flow.moving_walls);
     words["FAR_FIELDS"] = fmt::format("{}", fmt::join(flow.far_fields, " "));
     words["WALLS"] = fmt::format("{}", fmt::join(flow.walls, " "));
     words["SYMMETRIES"] = symmetry_patches(flow.symmetries);
-    words["VORTEX"] = flow.symmetries.empty() ? "yes" : "no";
+    words["VORTEX"] = flow.symmetries.empty() && flow.outer_walls.empty() ? "yes" : "no";
     words["WALL_SURFACES"] = wall_surfaces(flow.walls);
     words["VELOCITY_VECTOR"] = vector(u, v);
     words["VELOCITY"] = number(flow.velocity);

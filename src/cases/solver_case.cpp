@@ -114,11 +114,15 @@ std::ptrdiff_t thin_triangles(const Mesh& mesh) {
     return triangles > std::count(triangles_end, mesh.region.end(), Region::layer) ? triangles : 0;
 }
 
-/// Returns the foremost vertex of the walls, the lowest of several.
-Point foremost_wall_vertex(const Mesh& mesh) {
+bool is_one_of(const std::string& name, const std::vector<std::string>& names) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// Returns the foremost vertex of these walls, the lowest of several.
+Point foremost_wall_vertex(const Mesh& mesh, const std::vector<std::string>& walls) {
     Point foremost{HUGE_VAL, HUGE_VAL};
     for (const Marker& marker : mesh.markers) {
-        if (marker.kind != MarkerKind::wall) continue;
+        if (!is_one_of(marker.name, walls)) continue;
         for (const Segment& edge : marker.edges) {
             const Point p = mesh.points[edge.a.index()];
             if (std::pair(p.x, p.y) < std::pair(foremost.x, foremost.y)) foremost = p;
@@ -167,10 +171,14 @@ CaseFlow case_flow(FlowSolver solver, const Mesh& mesh, const SolverConditions& 
     flow.walls = names_of_markers(mesh, MarkerKind::wall);
     flow.far_fields = names_of_markers(mesh, MarkerKind::far_field);
     flow.symmetries = names_of_markers(mesh, MarkerKind::symmetry);
+    flow.outer_walls = conditions.outer_walls;
+    flow.moving_walls = conditions.moving_walls;
+    std::erase_if(flow.walls, [&](const std::string& name) { return is_one_of(name, flow.outer_walls); });
     if (flow.walls.empty()) throw MeshError("a case needs a mesh with a marker that is a wall");
     if (flow.far_fields.empty()) throw MeshError("a case needs a mesh with a marker that is a far field");
     if (options.unsteady) flow.time = steps_in_time(mesh, flow);
-    flow.moment_point = conditions.moment_point.value_or(foremost_wall_vertex(mesh) + Point{0.25 * chord, 0});
+    flow.moment_point =
+        conditions.moment_point.value_or(foremost_wall_vertex(mesh, flow.walls) + Point{0.25 * chord, 0});
     return flow;
 }
 

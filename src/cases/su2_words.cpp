@@ -11,11 +11,17 @@ namespace lamina::cases {
 
 namespace {
 
-/// Returns the names of the walls, each followed by a value.
+/// Returns the names of all walls, each followed by a value.
 std::string walls_with(const CaseFlow& flow, std::string_view value) {
     std::vector<std::string> pairs;
-    for (const std::string& wall : flow.walls) pairs.push_back(fmt::format("{}, {}", wall, value));
+    for (const std::string& wall : flow.all_walls()) pairs.push_back(fmt::format("{}, {}", wall, value));
     return fmt::format("{}", fmt::join(pairs, ", "));
+}
+
+/// Returns the speed of the free stream in m/s, as SU2 takes it: that of air at FREESTREAM_TEMPERATURE.
+double stream_speed(const CaseFlow& flow) {
+    constexpr double heat_ratio = 1.4, gas_constant = 287.058, temperature = 300;
+    return flow.mach * std::sqrt(heat_ratio * gas_constant * temperature);
 }
 
 /// Adds what makes a case steady, or one in time.
@@ -36,8 +42,6 @@ void add_time(const CaseFlow& flow, Words& words) {
             words["MAX_ITERATIONS"]);
         return;
     }
-    // SU2's speed of sound in metres per second, of air at 300 kelvin. Lengths count as metres.
-    const double sound_speed = std::sqrt(1.4 * 287.058 * 300);
     words["RUN_COMMENT"] = "% Allrun changes TIME_ITER, and starts with a steady run.";
     words["STEPS"] = fmt::format("{}", flow.time->per_time);
     // The moment point is a quarter of the chord behind the nose.
@@ -49,7 +53,15 @@ void add_time(const CaseFlow& flow, Words& words) {
         "TIME_DOMAIN= YES\nTIME_MARCHING= DUAL_TIME_STEPPING-2ND_ORDER\nTIME_STEP= {}\nMAX_TIME= 1E10\n"
         "TIME_ITER= 2\nRESTART_ITER= 2\nREAD_BINARY_RESTART= NO\nINNER_ITER= 20\nCONV_FIELD= REL_RMS_DENSITY\n"
         "CONV_RESIDUAL_MINVAL= -2\nCONV_STARTITER= 2",
-        flow.chord / (flow.mach * sound_speed * flow.time->per_time));
+        flow.chord / (stream_speed(flow) * flow.time->per_time));
+}
+
+/// Returns the lines of walls that move with the free stream.
+std::string moving_walls(const CaseFlow& flow) {
+    if (flow.moving_walls.empty()) return "";
+    const double speed = stream_speed(flow);
+    return fmt::format("SURFACE_MOVEMENT= MOVING_WALL\nMARKER_MOVING= ( {} )\nSURFACE_TRANSLATION_RATE= {} {} 0.0",
+                       fmt::join(flow.moving_walls, ", "), speed * flow.direction.x, speed * flow.direction.y);
 }
 
 }  // namespace
@@ -95,6 +107,7 @@ Words su2_words(const CaseFlow& flow) {
     words["HEAT_FLUXES"] = walls_with(flow, "0.0");
     words["FAR_FIELDS"] = fmt::format("{}", fmt::join(flow.far_fields, ", "));
     words["SYMMETRIES"] = flow.symmetries.empty() ? "NONE" : fmt::format("{}", fmt::join(flow.symmetries, ", "));
+    words["MOVING_WALLS"] = moving_walls(flow);
     words["WALL_FUNCTIONS"] =
         fmt::format("MARKER_WALL_FUNCTIONS= ( {} )",
                     walls_with(flow, flow.wall_functions ? "STANDARD_WALL_FUNCTION" : "NO_WALL_FUNCTION"));

@@ -32,9 +32,18 @@ struct CaseFlow {
     Point moment_point;
     bool wall_functions = false;
     TurbulenceModel turbulence = TurbulenceModel::spalart_allmaras;
-    std::vector<std::string> walls;       ///< names of the markers, one or more
-    std::vector<std::string> far_fields;  ///< likewise
-    std::vector<std::string> symmetries;  ///< likewise, if any
+    std::vector<std::string> walls;         ///< names of the markers of bodies, one or more
+    std::vector<std::string> far_fields;    ///< likewise
+    std::vector<std::string> symmetries;    ///< likewise, if any
+    std::vector<std::string> outer_walls;   ///< SolverConditions::outer_walls
+    std::vector<std::string> moving_walls;  ///< SolverConditions::moving_walls
+
+    /// Returns the names of all walls, bodies first.
+    std::vector<std::string> all_walls() const {
+        std::vector<std::string> all = walls;
+        all.insert(all.end(), outer_walls.begin(), outer_walls.end());
+        return all;
+    }
 };
 
 /// Up to this Mach number no flow round a section has a shock that is worth a scheme of its own.

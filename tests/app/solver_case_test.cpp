@@ -128,12 +128,12 @@ TEST(SolverCaseCommand, TunnelsAndGroundAreSlipWallsWithoutAVortex) {
     }
     for (const char* field : {"U", "p", "nut", "nuTilda"}) {
         const std::string text = folder.read(std::string("openfoam/0/") + field);
-        for (const char* name : {"ground", "tunnel"})
+        for (const char* name : {"ground", "ceiling"})
             EXPECT_NE(text.find(std::string(name) + "\n    {\n        type            symmetry;"), std::string::npos);
         EXPECT_NE(text.find("(inlet|outlet)"), std::string::npos);
     }
     EXPECT_NE(folder.read("openfoam/Allrun").find("vortex=no"), std::string::npos);
-    EXPECT_NE(folder.read("su2/case.cfg").find("\nMARKER_SYM= ( ground, tunnel )\n"), std::string::npos);
+    EXPECT_NE(folder.read("su2/case.cfg").find("\nMARKER_SYM= ( ground, ceiling )\n"), std::string::npos);
     const ProgramRun across = run_lamina(folder, small_case("su2", {"--tunnel", "3"}));
     EXPECT_EQ(across.exit_code, usage);
     EXPECT_NE(across.err.find("--transform"), std::string::npos) << across.err;

@@ -1,4 +1,4 @@
-// The outer boundary as inlet and outlet, ground and tunnel.
+// The outer boundary as inlet and outlet, and where ground and tunnel lie.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <lamina/error.hpp>
+#include <lamina/option.hpp>
 #include <lamina/pipeline.hpp>
 
 #include "pipeline/assemble.hpp"
@@ -16,7 +17,7 @@
 namespace lamina {
 namespace {
 
-using pipeline::mark_slip_walls;
+using pipeline::add_outer_walls;
 using pipeline::split_far_field;
 
 TEST(InletOutlet, EachEdgeIsWhereTheFlowEntersOrNot) {
@@ -83,6 +84,12 @@ double length_at(const Mesh& mesh, const Marker& marker, double y) {
     return sum;
 }
 
+Box bounding_box_of(const Mesh& mesh) {
+    Box box;
+    for (const Point p : mesh.points) box.include(p);
+    return box;
+}
+
 CaseOptions small_case() {
     CaseOptions options;
     options.far_field.size = 5;
@@ -96,31 +103,47 @@ Mesh mesh_of_section(const CaseOptions& options) {
     return mesh;
 }
 
-TEST(SlipWalls, ATunnelHasFloorAndCeilingInletAndOutlet) {
+TEST(OuterWalls, ATunnelHasFloorAndCeilingInletAndOutlet) {
     CaseOptions options = small_case();
     options.far_field.tunnel = Length{3};
     const Mesh mesh = mesh_of_section(options);
-    const Marker *tunnel = marker_of(mesh, "tunnel"), *inlet = marker_of(mesh, "inlet"),
-                 *outlet = marker_of(mesh, "outlet");
-    ASSERT_TRUE(tunnel && inlet && outlet);
-    EXPECT_EQ(mesh.markers.size(), 4u);
-    EXPECT_EQ(tunnel->kind, MarkerKind::symmetry);
-    double floor = 0, ceiling = 0, longest = 0;
-    for (const Segment& edge : tunnel->edges) {
-        const Point a = mesh.points[edge.a.index()], b = mesh.points[edge.b.index()];
-        EXPECT_NEAR(std::abs(a.y), 1.5, 1e-12);
-        EXPECT_EQ(a.y, b.y);
-        (a.y < 0 ? floor : ceiling) += distance(a, b);
-        longest = std::max(longest, distance(a, b));
+    const Marker *floor = marker_of(mesh, "floor"), *ceiling = marker_of(mesh, "ceiling"),
+                 *inlet = marker_of(mesh, "inlet"), *outlet = marker_of(mesh, "outlet");
+    ASSERT_TRUE(floor && ceiling && inlet && outlet);
+    EXPECT_EQ(mesh.markers.size(), 5u);
+    for (const Marker* wall : {floor, ceiling}) {
+        EXPECT_EQ(wall->kind, MarkerKind::symmetry);
+        EXPECT_NEAR(length_at(mesh, *wall, wall == floor ? -1.5 : 1.5), 10, 1e-9);
+        double longest = 0;
+        for (const Segment& edge : wall->edges)
+            longest = std::max(longest, distance(mesh.points[edge.a.index()], mesh.points[edge.b.index()]));
+        EXPECT_LT(longest, 2 * 3.0 / 20) << "edges are short enough for a tunnel";
     }
-    EXPECT_NEAR(floor, 10, 1e-9);
-    EXPECT_NEAR(ceiling, 10, 1e-9);
-    EXPECT_LT(longest, 2 * 3.0 / 20) << "edges are short enough for a tunnel";
     for (const Segment& edge : inlet->edges) EXPECT_NEAR(mesh.points[edge.a.index()].x, -4.5, 1e-12);
     for (const Segment& edge : outlet->edges) EXPECT_NEAR(mesh.points[edge.a.index()].x, 5.5, 1e-12);
 }
 
-TEST(SlipWalls, GroundLiesBelowTheLowestPoint) {
+TEST(OuterWalls, ATunnelEndsWhereTheFlowIsEvenOrWhereItIsTold) {
+    CaseOptions options = small_case();
+    options.far_field.size = FarFieldOptions{}.size;
+    for (const double height : {1.0, 6.0}) {
+        options.far_field.tunnel = Length{height};
+        const Box box = bounding_box_of(mesh_of_section(options));
+        EXPECT_NEAR(box.lower.x, -std::max(10.0, 3 * height), 1e-9);
+        EXPECT_NEAR(box.upper.x, 1 + std::max(15.0, 4 * height), 1e-9);
+    }
+    set_by_name(option_table<FarFieldOptions>(), "tunnel", std::string("1:2:3u"), options.far_field);
+    const Box box = bounding_box_of(mesh_of_section(options));
+    EXPECT_NEAR(box.lower.x, -2, 1e-9);
+    EXPECT_NEAR(box.upper.x, 4, 1e-9);
+    EXPECT_NEAR(box.height(), 1, 1e-12);
+    for (const char* wrong : {"1:2", "1:2:3:4", "1:-2:3", "0"})
+        EXPECT_THROW(set_by_name(option_table<FarFieldOptions>(), "tunnel", std::string(wrong), options.far_field),
+                     OptionError)
+            << wrong;
+}
+
+TEST(OuterWalls, GroundLiesBelowTheLowestPoint) {
     CaseOptions options = small_case();
     options.far_field.ground = Length{0.25};
     const Mesh mesh = mesh_of_section(options);
@@ -134,37 +157,18 @@ TEST(SlipWalls, GroundLiesBelowTheLowestPoint) {
     EXPECT_NEAR(highest, 5, 1e-3);
 }
 
-TEST(SlipWalls, GroundMayBeNearerThanAFiftiethOfTheBody) {
-    CaseOptions options = small_case();
-    options.layer.enabled = true;
-    options.layer.first_height = Length{1e-5};
-    options.layer.layers = 10;
-    for (const double gap : {0.05, 0.0125}) {
-        options.far_field.ground = Length{gap};
-        const Mesh mesh = mesh_of_section(options);
-        EXPECT_GT(check_mesh(mesh).isotropic.min_angle_deg, proved_min_angle_deg) << gap;
-    }
-    options.far_field.ground = Length{0.001};
-    try {
-        mesh_of_section(options);
-        ADD_FAILURE() << "0.1 % of the chord is too little";
-    } catch (const OptionError& error) {
-        EXPECT_EQ(error.option(), "ground");
-    }
-}
-
-TEST(SlipWalls, ATunnelStandsOnTheGround) {
+TEST(OuterWalls, ATunnelStandsOnTheGround) {
     CaseOptions options = small_case();
     options.far_field.ground = Length{0.5};
     options.far_field.tunnel = Length{2};
     const Mesh mesh = mesh_of_section(options);
     const double lowest = bounding_box(read_geometry(std::vector<std::string>{"naca:0012:60"})).lower.y;
-    ASSERT_TRUE(marker_of(mesh, "ground") && marker_of(mesh, "tunnel"));
+    ASSERT_TRUE(marker_of(mesh, "ground") && marker_of(mesh, "ceiling") && !marker_of(mesh, "floor"));
     EXPECT_NEAR(length_at(mesh, *marker_of(mesh, "ground"), lowest - 0.5), 10, 1e-9);
-    EXPECT_NEAR(length_at(mesh, *marker_of(mesh, "tunnel"), lowest + 1.5), 10, 1e-9);
+    EXPECT_NEAR(length_at(mesh, *marker_of(mesh, "ceiling"), lowest + 1.5), 10, 1e-9);
 }
 
-TEST(SlipWalls, AreRefusedWhereTheyCannotBe) {
+TEST(OuterWalls, AreRefusedWhereTheyCannotBe) {
     CaseOptions options = small_case();
     options.far_field.tunnel = Length{0.1};
     EXPECT_THROW(mesh_of_section(options), OptionError) << "the section is higher";
@@ -174,9 +178,18 @@ TEST(SlipWalls, AreRefusedWhereTheyCannotBe) {
     options.conditions.alpha_deg = 0;
     options.far_field.shape = FarFieldShape::circle;
     EXPECT_THROW(mesh_of_section(options), OptionError) << "a circle has no floor";
+    options = small_case();
+    options.far_field.ground_wall = OuterWallKind::moving;
+    EXPECT_THROW(mesh_of_section(options), OptionError) << "there is no ground";
+    options.far_field.ground = Length{0.5};
+    options.far_field.ground_layers = OuterYPlus{1};
+    options.layer.enabled = true;
+    EXPECT_THROW(mesh_of_section(options), OptionError) << "a y+ needs a Reynolds number";
     Mesh mesh = test::annulus();
-    mesh.markers[0].name = "tunnel";
-    EXPECT_THROW(mark_slip_walls(mesh.points, mesh.markers, {}, false), OptionError);
+    mesh.markers[0].name = "floor";
+    const std::vector<pipeline::OuterWallFacts> walls{{.name = "floor"}};
+    const std::vector<std::vector<Segment>> edges(1);
+    EXPECT_THROW(add_outer_walls(walls, edges, mesh.markers), OptionError);
 }
 
 }  // namespace

@@ -36,6 +36,10 @@ inline std::vector<StreamCase> stream_cases() {
              o.sizing.sources.push_back({.a = {2, 0}, .b = {2, 0}, .size = 0.05, .radius = 1.5});
              o.decoupling.pieces_target = 4000;
          })},
+        {"ground", {"naca:0012:60"}, small([](CaseOptions& o) {
+             o.far_field.ground = 0.1;
+             o.far_field.ground_wall = OuterWallKind::moving;
+         })},
         {"inlet and outlet", {"naca:0012:60:blunt"}, small([](CaseOptions& o) {
              o.inlet_outlet = true;
              o.assemble.base_marker = true;
