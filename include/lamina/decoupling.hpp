@@ -56,7 +56,7 @@ struct FarFieldOptions {
     /// Distance of the tunnel's inlet ahead of the configuration; empty: 10 chords or 3 heights, the larger of both, or what
     /// `size` says where it is not the default.
     std::optional<Length> tunnel_upstream{};
-    std::optional<Length> tunnel_downstream{};  ///< of its outlet; empty: 15 chords or 4 heights, likewise
+    std::optional<Length> tunnel_downstream{};         ///< of its outlet; empty: 15 chords or 4 heights, likewise
     OuterWallKind tunnel_walls = OuterWallKind::slip;  ///< ceiling, and floor where there is no ground: none moves
     std::optional<OuterLayers> tunnel_layers{};        ///< on them; empty: as on the bodies
     std::optional<Length> ground{};                    ///< distance of flat ground below the lowest point

@@ -84,11 +84,12 @@ Option<FarFieldOptions>& add_tunnel(OptionTableBuilder<FarFieldOptions>& table) 
             if (length) text += ":" + core::length_text(*length);
         return text;
     };
-    return table.add({"tunnel", OptionKind::word, "H[:UP:DOWN]",
-                      "height of a wind tunnel with the configuration in its middle, or on its ground, and how far it goes on "
-                      "ahead of the configuration and behind it; else 10 and 15 chords, or 3 and 4 heights, the larger of "
-                      "both, unless far-field says it",
-                      "", set, get});
+    return table.add(
+        {"tunnel", OptionKind::word, "H[:UP:DOWN]",
+         "height of a wind tunnel with the configuration in its middle, or on its ground, and how far it goes on "
+         "ahead of the configuration and behind it; else 10 and 15 chords, or 3 and 4 heights, the larger of "
+         "both, unless far-field says it",
+         "", set, get});
 }
 
 }  // namespace
@@ -130,11 +131,11 @@ OptionTable<FarFieldOptions> option_rows() {
         .length("ground", "H", "distance of flat ground below the lowest point of the configuration", positive_numbers,
                 member_at(&FarFieldOptions::ground))
         .excludes = other_shapes;
-    table.choice("ground-wall", "the ground: with slip, without, or without and moving with the free stream",
-                 Choices<OuterWallKind>{{"slip", OuterWallKind::slip},
-                                        {"no-slip", OuterWallKind::no_slip},
-                                        {"moving", OuterWallKind::moving}},
-                 member_at(&FarFieldOptions::ground_wall));
+    table.choice(
+        "ground-wall", "the ground: with slip, without, or without and moving with the free stream",
+        Choices<OuterWallKind>{
+            {"slip", OuterWallKind::slip}, {"no-slip", OuterWallKind::no_slip}, {"moving", OuterWallKind::moving}},
+        member_at(&FarFieldOptions::ground_wall));
     table.spec("ground-layers", "H|y+Y", "the same as tunnel-layers, on ground without slip", parse_outer_layers,
                outer_layers_text, member_at(&FarFieldOptions::ground_layers));
     return table.take();

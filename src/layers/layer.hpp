@@ -69,10 +69,9 @@ struct Ray {
 
 /// The edges of walls and outer borders. An edge that belongs to a wall and to an outer border has no layer beside it.
 struct LayerEdges {
-    std::vector<std::vector<Segment>>
-        walls;                    ///< one list per element, the mesh on the left: clockwise round the body
-    std::vector<Segment> region;  ///< edges that bound the layer, the layer on their left
-    std::vector<Segment> sides;   ///< those of them on the sides of the domain, beside outer walls
+    std::vector<std::vector<Segment>> walls;  ///< one list per element, the mesh on the left: clockwise round the body
+    std::vector<Segment> region;              ///< edges that bound the layer, the layer on their left
+    std::vector<Segment> sides;               ///< those of them on the sides of the domain, beside outer walls
     /// Edges of outer borders between the layer and the outer region. Each has its smaller vertex first; sorted.
     std::vector<Segment> interfaces;
 };

@@ -61,8 +61,8 @@ std::vector<layers::Circle> circles_round_unexcused(std::span<const mesh::Narrow
 /// Returns the sizes by which outer walls are divided: those of the bodies' walls and of the sources, which grow as the
 /// spacing of walls may.
 SizeField size_of_outer_walls(const CaseOptions& options, const Geometry& geometry,
-                              const ReferenceConditions& conditions, const layers::LayerGrowth& growth, const Box& domain,
-                              std::span<const SizeSource> finer) {
+                              const ReferenceConditions& conditions, const layers::LayerGrowth& growth,
+                              const Box& domain, std::span<const SizeSource> finer) {
     const sizing::SizedBodies bodies = sized_bodies(geometry, conditions);
     std::vector<SizeSource> sources =
         sizing::gather_size_requests(options.sizing, bodies, bodies.walls, domain).at_borders;
@@ -83,8 +83,7 @@ FittedLayer grow_within(const CaseOptions& options, Geometry geometry, const Ref
     std::vector<layers::OuterWall> divided;
     if (!outer_walls.empty())
         divided = divide_outer_walls(
-            outer_walls, far_field,
-            size_of_outer_walls(options, geometry, conditions, growth, far_field.box(), finer));
+            outer_walls, far_field, size_of_outer_walls(options, geometry, conditions, growth, far_field.box(), finer));
     layers::Rays rays = layers::grow_rays(geometry, options.layer, growth, divided);
     if (options.layer.enabled)
         require_room_for_layers(geometry, layers::fronts(rays), far_field, options.layer, growth);
@@ -152,8 +151,8 @@ bool all_layers_fit(const layers::Rays& rays) {
 /// below division points (docs/decisions/0009). `grow` makes rays on walls. Finer walls ask for finer ones beside them, which
 /// three rounds of halving reach.
 void refine_walls_below_borders(const SurfaceOptions& surface, double least_gradation, PreparedWalls& walls,
-                                const std::function<FittedLayer(Geometry)>& grow, std::vector<SizeSource>& on_outer_walls,
-                                FittedLayer& fitted) {
+                                const std::function<FittedLayer(Geometry)>& grow,
+                                std::vector<SizeSource>& on_outer_walls, FittedLayer& fitted) {
     constexpr int max_rounds = 3;
     for (int round = 0; round < max_rounds; ++round) {
         layers::BorderOptions border = border_with_sources(fitted.border, fitted.requests.at_borders);

@@ -48,8 +48,8 @@ void add_outer_walls(std::span<const OuterWallFacts> walls, std::span<const std:
     for (const OuterWallFacts& wall : walls)
         require_free_names(markers, {wall.name}, wall.name == "ground" ? "ground" : "tunnel");
     for (std::size_t k = 0; k < walls.size(); ++k)
-        markers.push_back({walls[k].name,
-                           walls[k].kind == OuterWallKind::slip ? MarkerKind::symmetry : MarkerKind::wall, edges[k]});
+        markers.push_back(
+            {walls[k].name, walls[k].kind == OuterWallKind::slip ? MarkerKind::symmetry : MarkerKind::wall, edges[k]});
 }
 
 }  // namespace lamina::pipeline

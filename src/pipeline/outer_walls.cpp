@@ -76,10 +76,10 @@ std::vector<layers::OuterWall> divide_outer_walls(std::span<const OuterWallFacts
     for (const OuterWallFacts& wall : walls) {
         // A body lies on the left of its outline.
         const bool is_below = wall.y == far_field.floor;
-        const double begin = is_below ? domain.upper.x : domain.lower.x, end = is_below ? domain.lower.x : domain.upper.x;
+        const double begin = is_below ? domain.upper.x : domain.lower.x,
+                     end = is_below ? domain.lower.x : domain.upper.x;
         std::vector<double> x{begin};
-        for (const Point p :
-             decoupling::divide_separator({begin, wall.y}, {end, wall.y}, size, min_segments_of_side))
+        for (const Point p : decoupling::divide_separator({begin, wall.y}, {end, wall.y}, size, min_segments_of_side))
             x.push_back(p.x);
         x.push_back(end);
         divided.push_back(plate(wall, std::move(x), is_below));

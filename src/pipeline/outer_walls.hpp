@@ -36,7 +36,7 @@ std::vector<layers::OuterWall> divide_outer_walls(std::span<const OuterWallFacts
 struct RegionBorders {
     std::vector<Point> points;                   ///< those of the layer, then those on the sides of the domain
     std::vector<std::vector<VertexId>> borders;  ///< as decoupling::decouple() takes them
-    std::vector<Segment> far_field;              ///< edges of the sides, beside the layer and beyond, the mesh on the left
+    std::vector<Segment> far_field;  ///< edges of the sides, beside the layer and beyond, the mesh on the left
 };
 
 /// Closes the border of the domain: sides without walls are divided by the size field, from the ends of one wall to those of

@@ -132,15 +132,14 @@ TEST(OuterWalls, ATunnelEndsWhereTheFlowIsEvenOrWhereItIsTold) {
         EXPECT_NEAR(box.lower.x, -std::max(10.0, 3 * height), 1e-9);
         EXPECT_NEAR(box.upper.x, 1 + std::max(15.0, 4 * height), 1e-9);
     }
-    set_by_name(option_table<FarFieldOptions>(), "tunnel", std::string("1:2:3u"), options.far_field);
+    const Option<FarFieldOptions>& tunnel = find_row(option_table<FarFieldOptions>(), "tunnel");
+    tunnel.set(options.far_field, std::string("1:2:3u"));
     const Box box = bounding_box_of(mesh_of_section(options));
     EXPECT_NEAR(box.lower.x, -2, 1e-9);
     EXPECT_NEAR(box.upper.x, 4, 1e-9);
     EXPECT_NEAR(box.height(), 1, 1e-12);
     for (const char* wrong : {"1:2", "1:2:3:4", "1:-2:3", "0"})
-        EXPECT_THROW(set_by_name(option_table<FarFieldOptions>(), "tunnel", std::string(wrong), options.far_field),
-                     OptionError)
-            << wrong;
+        EXPECT_THROW(tunnel.set(options.far_field, std::string(wrong)), OptionError) << wrong;
 }
 
 TEST(OuterWalls, GroundLiesBelowTheLowestPoint) {

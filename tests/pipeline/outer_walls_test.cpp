@@ -35,10 +35,9 @@ MeshResult mesh_of(const std::vector<std::string>& inputs, const CaseOptions& op
 /// Returns the number of cells of columns whose origins fulfil a condition.
 template <class Condition>
 double cells_where(const MeshResult& result, Condition condition) {
-    return static_cast<double>(
-        std::count_if(result.columns.begin(), result.columns.end(), [&](std::uint32_t column) {
-            return condition(result.mesh.points[result.column_origins[column].index()]);
-        }));
+    return static_cast<double>(std::count_if(result.columns.begin(), result.columns.end(), [&](std::uint32_t column) {
+        return condition(result.mesh.points[result.column_origins[column].index()]);
+    }));
 }
 
 TEST(OuterWalls, LayersBelowAWingNearTheGroundAreMade) {
@@ -54,7 +53,8 @@ TEST(OuterWalls, LayersBelowAWingNearTheGroundAreMade) {
         const LayerCoverage& on_ground = result.outer_walls[0].coverage.all;
         EXPECT_GT(on_ground.made_cells, 0.9 * static_cast<double>(on_ground.requested_cells)) << clearance;
         ASSERT_EQ(result.check.walls.first_heights.size(), 2u);
-        for (const FirstHeights& heights : result.check.walls.first_heights) EXPECT_EQ(heights.kept, 1) << heights.name;
+        for (const FirstHeights& heights : result.check.walls.first_heights)
+            EXPECT_EQ(heights.share_of_kept, 1) << heights.marker;
         EXPECT_EQ(result.check.walls.bare_edges, 0u);
         EXPECT_EQ(result.check.edges_without_first_layer, 0u);
     }
@@ -77,7 +77,9 @@ TEST(OuterWalls, AGapAboveTheGroundIsOneBetweenBodies) {
     const MeshResult ground = mesh_of({"naca:0012"}, above_ground(clearance));
     CaseOptions options;
     options.far_field.size = 20;
-    std::vector<Point> plate{{4, lowest - clearance - 0.2}, {4, lowest - clearance}, {-3, lowest - clearance},
+    std::vector<Point> plate{{4, lowest - clearance - 0.2},
+                             {4, lowest - clearance},
+                             {-3, lowest - clearance},
                              {-3, lowest - clearance - 0.2}};
     Geometry with_plate =
         make_geometry({section.elements[0], element_of_points(plate, "plate")}, {.names = {"section", "plate"}});
@@ -126,7 +128,8 @@ TEST(OuterWalls, LayersHaveAFirstHeightOfTheirOwn) {
     EXPECT_EQ(result.outer_walls[0].first_height, 1e-4);
     EXPECT_EQ(result.outer_walls[1].name, "ceiling");
     EXPECT_NEAR(result.outer_walls[1].first_height, 7e-4, 1e-4);
-    for (const FirstHeights& heights : result.check.walls.first_heights) EXPECT_EQ(heights.kept, 1) << heights.name;
+    for (const FirstHeights& heights : result.check.walls.first_heights)
+        EXPECT_EQ(heights.share_of_kept, 1) << heights.marker;
 }
 
 TEST(OuterWalls, EveryTopologyHasThem) {

@@ -111,8 +111,7 @@ private:
                     origin_of_ray_[i] = wall.back();
                 }
                 const auto divide_edge_behind = [&](std::size_t after) {
-                    if (k < edges && corners_[e][k].ray == i && corners_[e][k].after == after)
-                        divide_wall(e, k++);
+                    if (k < edges && corners_[e][k].ray == i && corners_[e][k].after == after) divide_wall(e, k++);
                 };
                 divide_edge_behind(0);
                 for (const Point p : set_.lines[i].corner_after) {
