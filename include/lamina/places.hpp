@@ -21,10 +21,10 @@ struct Place {
 };
 
 /// Returns the places of a mesh, from the large ones to the small ones; none for a mesh without points:
-///  - `all`; `walls`, round all walls;
+///  - `all`; `walls`, round all bodies: walls that are closed, or where there are none, those with ends;
 ///  - for each body, counted from 1 in the order of wall_vertices(), `nose:N` and `tail:N`: the tail is its vertex with
 ///    the largest x, and the nose the vertex farthest from that;
-///  - `slot:N`, counted in the direction of x, in gaps of two bodies up to a tenth of the walls' extent in x.
+///  - `slot:N`, counted in the direction of x, in gaps of two walls up to a tenth of the bodies' extent in x.
 LAMINA_EXPORT std::vector<Place> named_places(const Mesh& mesh);
 
 }  // namespace lamina

@@ -26,20 +26,31 @@ Box square_round(Point center, double side) {
     return {center - half, center + half};
 }
 
-/// Returns the points of each body on the walls.
-std::vector<std::vector<Point>> points_of_bodies(const Mesh& mesh) {
+/// The points of walls, wall by wall.
+struct WallPoints {
+    std::vector<std::vector<Point>> bodies;  ///< walls that are closed
+    std::vector<std::vector<Point>> open;    ///< walls with ends, as ground has
+};
+
+WallPoints points_of_walls(const Mesh& mesh) {
     Mesh walls;
     walls.points = mesh.points;
-    for (const Marker& marker : mesh.markers)
-        if (may_be_wall(marker.kind)) walls.markers.push_back({marker.name, MarkerKind::wall, marker.edges});
-    const WallVertices found = wall_vertices(walls);
-    std::vector<std::vector<Point>> bodies;
-    for (std::size_t body = 0; body + 1 < found.body_first.size(); ++body) {
-        bodies.emplace_back();
-        for (std::size_t i = found.body_first[body]; i < found.body_first[body + 1]; ++i)
-            bodies.back().push_back(mesh.points[found.vertex[i].index()]);
+    std::vector<bool> ends_edge(mesh.points.size(), false);
+    for (const Marker& marker : mesh.markers) {
+        if (!may_be_wall(marker.kind)) continue;
+        walls.markers.push_back({marker.name, MarkerKind::wall, marker.edges});
+        for (const Segment& edge : marker.edges) ends_edge[edge.a.index()] = true;
     }
-    return bodies;
+    const WallVertices found = wall_vertices(walls);
+    WallPoints result;
+    for (std::size_t wall = 0; wall + 1 < found.body_first.size(); ++wall) {
+        const bool is_closed = ends_edge[found.vertex[found.body_first[wall]].index()];
+        std::vector<Point>& points = (is_closed ? result.bodies : result.open).emplace_back();
+        for (std::size_t i = found.body_first[wall]; i < found.body_first[wall + 1]; ++i)
+            points.push_back(mesh.points[found.vertex[i].index()]);
+    }
+    if (result.bodies.empty()) std::swap(result.bodies, result.open);
+    return result;
 }
 
 /// Two points, one on each of two bodies, that are nearest to each other.
@@ -104,7 +115,7 @@ std::vector<Place> named_places(const Mesh& mesh) {
     if (mesh.points.empty()) return places;
     const Box all = core::bounding_box(mesh.points);
     add("all", all.center(), 1.02 * core::longer_side(all));
-    const std::vector<std::vector<Point>> bodies = points_of_bodies(mesh);
+    auto [bodies, open] = points_of_walls(mesh);
     Box walls;
     for (const auto& body : bodies)
         for (const Point p : body) walls.include(p);
@@ -115,7 +126,8 @@ std::vector<Place> named_places(const Mesh& mesh) {
         add(core::concat("nose:", i + 1), ends.nose, nose_side * ends.chord());
         add(core::concat("tail:", i + 1), ends.tail, tail_side * ends.chord());
     }
-    const std::vector<Gap> slots = slots_between(bodies, largest_gap * walls.width());
+    bodies.insert(bodies.end(), open.begin(), open.end());
+    const std::vector<Gap> slots = slots_between(std::move(bodies), largest_gap * walls.width());
     for (std::size_t i = 0; i < slots.size(); ++i)
         add(core::concat("slot:", i + 1), midpoint(slots[i].a, slots[i].b), slot_side * slots[i].width());
     return places;
