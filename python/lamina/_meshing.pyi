@@ -95,11 +95,21 @@ def mesh(
     far_field_shape: Literal["box", "circle"] | None = None,
     # instead: corners of a convex far field, counter-clockwise, in units of the input
     far_field_outline: str | float | Sequence[float] | None = None,
-    # height of a wind tunnel with the configuration in its middle, or on its ground: floor and ceiling are slip
-    # walls; > 0
-    tunnel: float | str | None = None,
-    # distance of flat ground below the lowest point of the configuration: a slip wall; > 0
+    # height of a wind tunnel with the configuration in its middle, or on its ground, and how far it goes on
+    # ahead of the configuration and behind it; else 10 and 15 chords, or 3 and 4 heights, the larger of both,
+    # unless far-field says it
+    tunnel: str | float | Sequence[float] | None = None,
+    # floor and ceiling of the tunnel [slip]
+    tunnel_walls: Literal["slip", "no-slip"] | None = None,
+    # height of the first layer on floor and ceiling without slip, or y+Y: that with this y+ on a flat plate;
+    # else as on the configuration
+    tunnel_layers: str | float | Sequence[float] | None = None,
+    # distance of flat ground below the lowest point of the configuration; > 0
     ground: float | str | None = None,
+    # the ground: with slip, without, or without and moving with the free stream [slip]
+    ground_wall: Literal["slip", "no-slip", "moving"] | None = None,
+    # the same on ground without slip, as tunnel-layers
+    ground_layers: str | float | Sequence[float] | None = None,
     # growth of the edge length per unit of distance; > 0 and <= 1 [0.1]
     gradation: float | None = None,
     # largest edge length at the outer border of the layer; else the edges of the border decide; > 0

@@ -123,10 +123,11 @@ OptionTable<FarFieldOptions> option_rows() {
     table.choice("tunnel-walls", "floor and ceiling of the tunnel",
                  Choices<OuterWallKind>{{"slip", OuterWallKind::slip}, {"no-slip", OuterWallKind::no_slip}},
                  member_at(&FarFieldOptions::tunnel_walls));
-    table.spec("tunnel-layers", "H|y+Y",
-               "height of the first layer on floor and ceiling without slip, or its y+ on a flat plate; as on the "
-               "configuration where it is not given",
-               parse_outer_layers, outer_layers_text, member_at(&FarFieldOptions::tunnel_layers));
+    table.spec(
+        "tunnel-layers", "H",
+        "height of the first layer on floor and ceiling without slip, or y+Y: that with this y+ on a flat plate; "
+        "else as on the configuration",
+        parse_outer_layers, outer_layers_text, member_at(&FarFieldOptions::tunnel_layers));
     table
         .length("ground", "H", "distance of flat ground below the lowest point of the configuration", positive_numbers,
                 member_at(&FarFieldOptions::ground))
@@ -136,7 +137,7 @@ OptionTable<FarFieldOptions> option_rows() {
         Choices<OuterWallKind>{
             {"slip", OuterWallKind::slip}, {"no-slip", OuterWallKind::no_slip}, {"moving", OuterWallKind::moving}},
         member_at(&FarFieldOptions::ground_wall));
-    table.spec("ground-layers", "H|y+Y", "the same as tunnel-layers, on ground without slip", parse_outer_layers,
+    table.spec("ground-layers", "H", "the same on ground without slip, as tunnel-layers", parse_outer_layers,
                outer_layers_text, member_at(&FarFieldOptions::ground_layers));
     return table.take();
 }
