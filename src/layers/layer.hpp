@@ -184,7 +184,7 @@ LAMINA_EXPORT LayerCells fill_layer(const Layer& layer, LayerTopology topology,
                                     const DecompositionOptions& options = {});
 
 /// Returns the defects of a layer that was made with these options, one line each; empty: every promise above holds.
-/// Exact where a sign decides; O(n log n) in practice.
+/// Exact where a sign decides; O(n log n) in practice. Precondition: there are no outer walls.
 LAMINA_EXPORT std::vector<std::string> check_layer(const Layer& layer, const LayerOptions& options,
                                                    const BorderOptions& border = {});
 

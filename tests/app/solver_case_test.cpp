@@ -139,6 +139,32 @@ TEST(SolverCaseCommand, TunnelsAndGroundAreSlipWallsWithoutAVortex) {
     EXPECT_NE(across.err.find("--transform"), std::string::npos) << across.err;
 }
 
+TEST(SolverCaseCommand, AMovingGroundHasTheFreeStreamsVelocityAndBearsNoForces) {
+    const TemporaryFolder folder;
+    for (const char* solver : {"openfoam", "su2"}) {
+        Words words = small_case(solver, {"--ground", "0.1", "--ground-wall", "moving"});
+        words.erase(std::find(words.begin(), words.end(), "--alpha"), std::find(words.begin(), words.end(), "-o"));
+        *std::find(words.begin(), words.end(), "c") = solver;
+        const ProgramRun run = run_lamina(folder, words);
+        ASSERT_EQ(run.exit_code, 0) << run.err;
+    }
+    const std::string velocity = folder.read("openfoam/0/U"), control = folder.read("openfoam/system/controlDict");
+    EXPECT_NE(velocity.find("|ground)\"\n    {\n        type            noSlip;"), std::string::npos) << velocity;
+    EXPECT_NE(velocity.find("\n    ground\n    {\n        type            fixedValue;\n        value           uniform "
+                            "$streamVelocity;"),
+              std::string::npos)
+        << velocity;
+    EXPECT_NE(folder.read("openfoam/0/nut").find("|ground)\""), std::string::npos);
+    EXPECT_EQ(control.find("ground"), std::string::npos) << "forces are those of the section";
+    EXPECT_NE(folder.read("openfoam/Allrun").find("vortex=no"), std::string::npos);
+    const std::string su2 = folder.read("su2/case.cfg");
+    EXPECT_NE(su2.find("SURFACE_MOVEMENT= MOVING_WALL\nMARKER_MOVING= ( ground )\nSURFACE_TRANSLATION_RATE= 52.08"),
+              std::string::npos)
+        << su2;
+    EXPECT_NE(su2.find(", 0.0, ground, 0.0 )"), std::string::npos);
+    EXPECT_EQ(list_behind(su2, "MARKER_MONITORING= (", ")").size(), 1u);
+}
+
 TEST(SolverCaseCommand, WritesAFamilyOfCases) {
     const TemporaryFolder folder;
     Words words = small_case("openfoam", {"--levels", "2", "--base-level", "1"});
