@@ -4,8 +4,8 @@
 // Guarantees:
 //  1. Subdomains share frozen borders, so that their triangles fit together whatever the options say.
 // Limits:
-//  1. The far field encloses bodies and layers at a hundredth of their extent, or it is an OptionError of the mesh. Ground
-//     and tunnel walls may be as near as bodies are to each other.
+//  1. The far field encloses bodies and layers at a hundredth of their extent, or it is an OptionError of the mesh.
+//     Ground and tunnel walls may be as near as bodies are to each other.
 // Example:
 //     CaseOptions options{.layer = {.enabled = false}, .far_field = {.size = 10, .ground = 0.5}};
 //     assert(generate_mesh({"naca:0012:60"}, options).mesh.markers.back().name == "ground");
@@ -53,8 +53,8 @@ struct FarFieldOptions {
     /// Height of a wind tunnel: the box is as high as this. Its floor is the ground where there is one, and else the
     /// configuration is in the middle.
     std::optional<Length> tunnel{};
-    /// Distance of the tunnel's inlet ahead of the configuration; empty: 10 chords or 3 heights, the larger of both, or what
-    /// `size` says where it is not the default.
+    /// Distance of the tunnel's inlet ahead of the configuration; empty: 10 chords or 3 heights, the larger of both, or
+    /// what `size` says where it is not the default.
     std::optional<Length> tunnel_upstream{};
     std::optional<Length> tunnel_downstream{};         ///< of its outlet; empty: 15 chords or 4 heights, likewise
     OuterWallKind tunnel_walls = OuterWallKind::slip;  ///< ceiling, and floor where there is no ground: none moves

@@ -86,8 +86,8 @@ FarField between_walls(FarField box, const Box& bodies, double chord, const FarF
     box.shape = FarFieldShape::outline;
     double left = box.center.x - radius, right = box.center.x + radius;
     if (options.tunnel && options.size == FarFieldOptions{}.size) {
-        // What a body does to the flow between walls falls by a factor of 23 over one height, so that nothing of it is left
-        // there (e^(-pi x / H)). Wakes are longer.
+        // What a body does to the flow between walls falls by a factor of 23 over one height, so that nothing of it is
+        // left there (e^(-pi x / H)). Wakes are longer.
         constexpr double least_ahead = 10, heights_ahead = 3, least_behind = 15, heights_behind = 4;
         const double height = ceiling - floor;
         left = bodies.lower.x - std::max(least_ahead * chord, heights_ahead * height);

@@ -20,8 +20,8 @@ struct FarField {
     double floor = -HUGE_VAL;                  ///< y of the wall below: ground, or the floor of a tunnel
     double ceiling = HUGE_VAL;                 ///< y of the wall above: the ceiling of a tunnel
 
-    /// Returns whether there is a wall below, and perhaps one above. The border of the domain then is the last one of those
-    /// between which the decoupling cuts: layers may stand on it.
+    /// Returns whether there is a wall below, and perhaps one above. The border of the domain then is the last one of
+    /// those between which the decoupling cuts: layers may stand on it.
     bool has_walls() const { return std::isfinite(floor); }
     /// Returns the box round the far field.
     LAMINA_EXPORT Box box() const;
@@ -35,8 +35,8 @@ LAMINA_EXPORT FarField place_far_field(const Box& bodies, double chord, const Fa
 /// of 0.8 times the size of the largest one that fits in.
 Box inscribed_box(const FarField& far_field);
 
-/// Returns whether the far field encloses the bodies at a distance of a hundredth of their extent, but for walls, which may
-/// be as near as bodies are to each other.
+/// Returns whether the far field encloses the bodies at a distance of a hundredth of their extent, but for walls, which
+/// may be as near as bodies are to each other.
 LAMINA_EXPORT bool leaves_room(const FarField& far_field, const Box& bodies);
 
 /// Returns the near-body box, which stands half the extent of `bodies` away from them, inside the outermost box.

@@ -38,10 +38,10 @@ struct Decoupling {
 };
 
 /// Cuts the outer region, between the borders of the layers and the far field, into subdomains of about equal work.
-/// `borders` are closed loops of indices into `points`, counter-clockwise round each body and its layer. If the far field has
-/// walls, the last one is the border of the domain, clockwise, and Decoupling::far_field is empty. The subdomains
-/// depend on the arguments alone, never on the number of threads. Throws OptionError for options out of range, and
-/// where the far field does not enclose the borders with some room.
+/// `borders` are closed loops of indices into `points`, counter-clockwise round each body and its layer. If the far
+/// field has walls, the last one is the border of the domain, clockwise, and Decoupling::far_field is empty. The
+/// subdomains depend on the arguments alone, never on the number of threads. Throws OptionError for options out of
+/// range, and where the far field does not enclose the borders with some room.
 LAMINA_EXPORT Decoupling decouple(std::span<const Point> points, std::span<const std::vector<VertexId>> borders,
                                   const SizeField& size, const FarField& far_field,
                                   const DecouplingOptions& options = {}, const RefineOptions& refine = {});

@@ -150,7 +150,8 @@ LAMINA_EXPORT Layer make_layer(const Geometry& geometry, const LayerOptions& opt
 /// Measures how evenly a layer ends.
 LAMINA_EXPORT BorderSteps border_steps(const Layer& layer);
 
-/// Returns, for each element, the points of its outer border as a closed loop: that of an outer wall runs there and back.
+/// Returns, for each element, the points of its outer border as a closed loop: that of an outer wall runs there and
+/// back.
 LAMINA_EXPORT std::vector<std::vector<Point>> border_loops(const Layer& layer);
 
 /// The cells between walls and outer borders, all counter-clockwise, and the pieces that they were made in.

@@ -141,8 +141,8 @@ struct Rays {
 };
 
 /// A straight wall on the border of the domain, as the ground is. For the rays it is a plate that goes on beyond both
-/// sides of the domain, so that layers on it end there as they would in the middle of a wall; what lies beyond the sides
-/// is left out of the layer.
+/// sides of the domain, so that layers on it end there as they would in the middle of a wall; what lies beyond the
+/// sides is left out of the layer.
 struct OuterWall {
     /// The outline of the plate, counter-clockwise. It begins with the part of the wall that bounds the domain.
     std::vector<Point> points;

@@ -28,8 +28,8 @@ std::vector<Marker> make_markers(const Geometry& geometry, const layers::Layer& 
 /// another marker has one of these names.
 LAMINA_EXPORT void split_far_field(std::span<const Point> points, std::vector<Marker>& markers, double alpha_deg);
 
-/// Adds the markers of walls on the border of the domain, with these edges: of the kind symmetry where the flow slips along
-/// them. Throws OptionError where a marker has the name of one.
+/// Adds the markers of walls on the border of the domain, with these edges: of the kind symmetry where the flow slips
+/// along them. Throws OptionError where a marker has the name of one.
 LAMINA_EXPORT void add_outer_walls(std::span<const OuterWallFacts> walls, std::span<const std::vector<Segment>> edges,
                                    std::vector<Marker>& markers);
 

@@ -73,7 +73,8 @@ SizeField size_of_outer_walls(const CaseOptions& options, const Geometry& geomet
     return sizing::make_size_field(bodies.walls, sources, sizing, conditions.chord, domain);
 }
 
-/// Makes rays on walls, within their far field. `finer` are sources by which outer walls become finer than bodies ask for.
+/// Makes rays on walls, within their far field. `finer` are sources by which outer walls become finer than bodies ask
+/// for.
 FittedLayer grow_within(const CaseOptions& options, Geometry geometry, const ReferenceConditions& conditions,
                         const layers::LayerGrowth& growth, std::span<const SizeSource> finer) {
     decoupling::FarField far_field =

@@ -36,8 +36,8 @@ void require_layers_within(const layers::LayerGrowth& growth, const Geometry& wa
 /// the gap. Takes less than a second.
 void require_walls_within(const SurfaceOptions& options, const Geometry& prepared, const WorkBudget& budget);
 
-/// Estimates the run from the layer, and the borders of the region and the size field beyond it. Throws LimitError where
-/// it would exceed the limits. `gradation` is that of the sizes.
+/// Estimates the run from the layer, and the borders of the region and the size field beyond it. Throws LimitError
+/// where it would exceed the limits. `gradation` is that of the sizes.
 RunEstimate estimate_within_limits(const RefineOptions& refine, double gradation, const layers::Layer& layer,
                                    const RegionBorders& region, const SizeField& size,
                                    const decoupling::FarField& far_field, const WorkBudget& budget);

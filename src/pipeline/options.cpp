@@ -122,7 +122,7 @@ void validate(const CaseOptions& options) {
         throw OptionError("use_flow", "needs reynolds, or velocity and viscosity");
     if (options.conditions.alpha_deg != 0 && (options.far_field.tunnel || options.far_field.ground))
         throw OptionError("alpha",
-                          "the flow runs along slip walls: turn the configuration, as with --transform "
+                          "the flow runs along ground and tunnel walls: turn the configuration, as with --transform "
                           "all:rotate:-10");
     if (options.layer.enabled && options.layer.wake_layers) {
         if (!options.use_flow) throw OptionError("wake_layers", "needs use_flow, which finds the wakes");

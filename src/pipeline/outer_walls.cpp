@@ -1,3 +1,4 @@
+// Plates for the rays, and the border of the domain.
 #include "pipeline/outer_walls.hpp"
 
 #include <cmath>
@@ -23,8 +24,8 @@ double first_height_of(const std::optional<OuterLayers>& layers, const char* opt
     return layers::first_height_for(std::get<OuterYPlus>(*layers).y_plus, *conditions.reynolds, conditions.chord);
 }
 
-/// Returns the plate that a wall is for the rays. Its hidden part goes on beyond both sides of the domain, far enough for
-/// columns of layers at the sides not to feel its corners, and back below:
+/// Returns the plate that a wall is for the rays. Its hidden part goes on beyond both sides of the domain, far enough
+/// for columns of layers at the sides not to feel its corners, and back below:
 ///
 ///     :     the domain     :
 ///     :                    :

@@ -21,9 +21,9 @@ struct OuterWallFacts {
     double first_height = 0;  ///< of its layers, in units of the input; 0: it has none
 };
 
-/// Returns the walls of this far field, the lower one first. Those that are no slip walls have layers, unless layers are
-/// disabled, with a first height of their own or that of `growth`. Throws OptionError for a y+ without a Reynolds number, and
-/// where a height contradicts the thickness.
+/// Returns the walls of this far field, the lower one first. Those that are no slip walls have layers, unless layers
+/// are disabled, with a first height of their own or that of `growth`. Throws OptionError for a y+ without a Reynolds
+/// number, and where a height contradicts the thickness.
 std::vector<OuterWallFacts> outer_wall_facts(const decoupling::FarField& far_field, const FarFieldOptions& options,
                                              const LayerOptions& layer, const ReferenceConditions& conditions,
                                              const layers::LayerGrowth& growth);
@@ -39,8 +39,8 @@ struct RegionBorders {
     std::vector<Segment> far_field;  ///< edges of the sides, beside the layer and beyond, the mesh on the left
 };
 
-/// Closes the border of the domain: sides without walls are divided by the size field, from the ends of one wall to those of
-/// the other or to the corners of the far field.
+/// Closes the border of the domain: sides without walls are divided by the size field, from the ends of one wall to
+/// those of the other or to the corners of the far field.
 RegionBorders close_domain(const layers::Layer& layer, const decoupling::FarField& far_field, const SizeField& size);
 
 }  // namespace lamina::pipeline

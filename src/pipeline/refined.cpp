@@ -51,8 +51,8 @@ void multiply_first_height(double factor, LayerOptions& layer) {
         std::get<YPlus>(layer.first_height).y_plus *= factor;
 }
 
-/// A layer is numbered by n x `step` of the old ones, where n is its new number. Returns the ratio of the first heights, the new
-/// one over the old one.
+/// A layer is numbered by n x `step` of the old ones, where n is its new number. Returns the ratio of the first
+/// heights, the new one over the old one.
 double refine_layer(double ratio, const ReferenceConditions& conditions, LayerOptions& layer) {
     if (!layer.enabled) return 1;
     if (layer.growth_law == GrowthLaw::aflr)

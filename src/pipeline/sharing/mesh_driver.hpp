@@ -83,8 +83,8 @@ public:
                                       double expected_triangles) = 0;
     /// Gives the vertices of the far field their places among those of decouple(), if they have none yet.
     virtual void place_far_field() {}
-    /// Returns the first vertex that a separator has, if processes match the borders of pieces there themselves: that behind
-    /// those of the region.
+    /// Returns the first vertex that a separator has, if processes match the borders of pieces there themselves: that
+    /// behind those of the region.
     virtual std::optional<VertexId> matched_elsewhere(std::size_t /*region_points*/) const { return {}; }
     /// Makes all pieces, and adds them and the layer to the check of the one that leads.
     virtual MadePieces make(const PiecesWork& work) = 0;
