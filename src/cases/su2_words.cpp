@@ -24,36 +24,50 @@ double stream_speed(const CaseFlow& flow) {
     return flow.mach * std::sqrt(heat_ratio * gas_constant * temperature);
 }
 
+constexpr const char* steady_comment =
+    R"(% Allrun changes AOA, ITER and RESTART_SOL on the way to a large angle of attack. To go on with an earlier run, rename
+% restart_flow.dat to solution_flow.dat, set RESTART_SOL= YES, and run SU2_CFD case.cfg.)";
+
+/// With the largest number of iterations to fill in.
+constexpr const char* steady_end =
+    R"(% ---- The end: drag and lift that have not changed over 200 iterations. SU2 counts changes of drag as shares of 0.1.
+ITER= {}
+CONV_FIELD= ( DRAG, LIFT )
+CONV_STARTITER= 250
+CONV_CAUCHY_ELEMS= 200
+CONV_CAUCHY_EPS= 2E-7)";
+
+/// With the seconds of a step to fill in.
+constexpr const char* end_in_time =
+    R"(% ---- Steps in time, each of inner iterations until the residual of the density has fallen to a hundredth
+TIME_DOMAIN= YES
+TIME_MARCHING= DUAL_TIME_STEPPING-2ND_ORDER
+TIME_STEP= {}
+MAX_TIME= 1E10
+TIME_ITER= 2
+RESTART_ITER= 2
+READ_BINARY_RESTART= NO
+INNER_ITER= 20
+CONV_FIELD= REL_RMS_DENSITY
+CONV_RESIDUAL_MINVAL= -2
+CONV_STARTITER= 2)";
+
 /// Adds what makes a case steady, or one in time.
 void add_time(const CaseFlow& flow, Words& words) {
+    constexpr const char* max_iterations = "5000";
     words["TIME_COLUMN"] = flow.time ? "TIME_DOMAIN, " : "";
     words["TIME_ITERATION"] = flow.time ? "TIME_ITER, " : "";
     words["OUTPUT_FREQUENCY"] = flow.time ? "1000000" : "1000";
-    if (!flow.time) {
-        words["RUN_COMMENT"] =
-            "% Allrun changes AOA, ITER and RESTART_SOL on the way to a large angle of attack. To go on with an "
-            "earlier run, "
-            "rename\n% restart_flow.dat to solution_flow.dat, set RESTART_SOL= YES, and run SU2_CFD case.cfg.";
-        words["END_OPTIONS"] = fmt::format(
-            "% ---- The end: drag and lift that have not changed over 200 iterations. SU2 counts changes of drag as "
-            "shares of "
-            "0.1.\nITER= {}\nCONV_FIELD= ( DRAG, LIFT )\nCONV_STARTITER= 250\nCONV_CAUCHY_ELEMS= "
-            "200\nCONV_CAUCHY_EPS= 2E-7",
-            words["MAX_ITERATIONS"]);
-        return;
-    }
-    words["RUN_COMMENT"] = "% Allrun changes TIME_ITER, and starts with a steady run.";
+    words["MAX_ITERATIONS"] = max_iterations;
+    words["RUN_COMMENT"] = flow.time ? "% Allrun changes TIME_ITER, and starts with a steady run." : steady_comment;
+    words["END_OPTIONS"] = fmt::format(steady_end, max_iterations);
+    if (!flow.time) return;
+    words["END_OPTIONS"] = fmt::format(end_in_time, flow.chord / (stream_speed(flow) * flow.time->per_time));
     words["STEPS"] = fmt::format("{}", flow.time->per_time);
+    words["TIMES"] = fmt::format("{}", flow.time->times);
     // The moment point is a quarter of the chord behind the nose.
     words["MIDDLE_X"] = fmt::format("{}", flow.moment_point.x + flow.chord / 4);
     words["MIDDLE_Y"] = fmt::format("{}", flow.moment_point.y);
-    words["TIMES"] = fmt::format("{}", flow.time->times);
-    words["END_OPTIONS"] = fmt::format(
-        "% ---- Steps in time, each of inner iterations until the residual of the density has fallen to a hundredth\n"
-        "TIME_DOMAIN= YES\nTIME_MARCHING= DUAL_TIME_STEPPING-2ND_ORDER\nTIME_STEP= {}\nMAX_TIME= 1E10\n"
-        "TIME_ITER= 2\nRESTART_ITER= 2\nREAD_BINARY_RESTART= NO\nINNER_ITER= 20\nCONV_FIELD= REL_RMS_DENSITY\n"
-        "CONV_RESIDUAL_MINVAL= -2\nCONV_STARTITER= 2",
-        flow.chord / (stream_speed(flow) * flow.time->per_time));
 }
 
 /// Returns the lines of walls that move with the free stream.
@@ -100,7 +114,6 @@ Words su2_words(const CaseFlow& flow) {
     // SU2 goes from 10 to 15 degrees at once, too; the lift swings by half of itself then.
     constexpr double step_of_angles = 2.5;
     words["ANGLES"] = fmt::format("{}", fmt::join(angles_to(flow.alpha_deg, step_of_angles), " "));
-    words["MAX_ITERATIONS"] = "5000";
     add_time(flow, words);
     words["WALL_NAMES"] = fmt::format("{}", fmt::join(flow.walls, " "));
     words["WALLS"] = fmt::format("{}", fmt::join(flow.walls, ", "));
