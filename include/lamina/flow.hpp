@@ -75,11 +75,18 @@ struct Flow {
 /// below a vacuum, and with the lift coefficients that follow from them. Speeds and boundary layers stay. Precondition:
 /// 0 < mach < 1. Source: T. von Karman, J. Aeronaut. Sci. 8 (1941), after H. S. Tsien.
 LAMINA_EXPORT Flow with_compressed_pressures(Flow flow, double mach);
-/// Returns the potential flow round all elements, as read or as prepared, and, where a Reynolds number is given, the
+/// Flat walls along the free stream, as ground and ceiling, in units of the input: y of each.
+struct FlowWalls {
+    std::optional<double> below{}, above{};
+};
+
+/// Returns the potential flow round all elements, as read or as prepared, between walls if there are any, and, where a Reynolds number is given, the
 /// boundary layers along their sides. Each element carries a vortex sheet of linear strength on some 200 straight
 /// panels. The stream function is constant along each body, and the flow leaves each trailing edge smoothly (Kutta), a
-/// base along the bisector of the sides. Precondition: check_simple(). Throws OptionError for conditions out of range.
-LAMINA_EXPORT Flow solve_flow(const Geometry& geometry, const FlowConditions& conditions = {});
+/// base along the bisector of the sides. Images of the bodies stand for walls. Preconditions: check_simple(), and all
+/// elements lie between the walls. Throws OptionError for conditions out of range.
+LAMINA_EXPORT Flow solve_flow(const Geometry& geometry, const FlowConditions& conditions = {},
+                              const FlowWalls& walls = {});
 /// Returns the largest value along all walls, or along those of one element, of a number such as &FlowPoint::thickness.
 LAMINA_EXPORT double largest_on_walls(const Flow& flow, double FlowPoint::*number);
 LAMINA_EXPORT double largest_on_walls(const ElementFlow& element, double FlowPoint::*number);  ///< the same

@@ -35,6 +35,7 @@ namespace {
 struct FlowArguments {
     std::vector<std::string> inputs;
     std::map<std::string, std::string> conditions;  ///< values by the names of option_table<FlowConditions>()
+    std::map<std::string, std::string> walls;       ///< likewise, of option_table<FarFieldOptions>()
     std::string table, picture, mach_picture;
 };
 
@@ -223,8 +224,9 @@ void draw_mach_numbers(const CompressibleFlow& flow, const std::string& file) {
 
 /// Solves the flow that the conditions ask for: compressible flow with shocks where it is faster than sound, else potential
 /// flow with boundary layers, whose pressures are those of compressible flow where there is a Mach number.
-FlowText solve(const Geometry& given, const Geometry& prepared, const FlowConditions& conditions, bool has_layers) {
-    const Flow flow = solve_flow(prepared, conditions);
+FlowText solve(const Geometry& given, const Geometry& prepared, const FlowConditions& conditions,
+               const FlowWalls& walls, bool has_layers) {
+    const Flow flow = solve_flow(prepared, conditions, walls);
     if (is_beyond_critical(flow, conditions)) return text_of(solve_compressible_flow(given, conditions));
     print_warnings(flow.warnings);
     if (!conditions.mach) return text_of(flow, "", has_layers);
@@ -245,7 +247,9 @@ std::vector<RunFile> files_written(const FlowArguments& arguments) {
 }
 
 void flow(const FlowArguments& arguments) {
-    const MeshCase mesh_case = case_of_inputs(arguments.inputs);
+    MeshCase mesh_case = case_of_inputs(arguments.inputs);
+    for (const auto& [name, value] : arguments.walls)
+        set_by_name(option_table<FarFieldOptions>(), name, value, mesh_case.options.far_field);
     require_consistent(mesh_case);
     FlowConditions conditions = mesh_case.options.conditions;
     for (const auto& [name, value] : arguments.conditions)
@@ -260,12 +264,13 @@ void flow(const FlowArguments& arguments) {
         throw UsageError("option --mach-picture needs a Mach number (--mach)");
     const SignalGuard guard(outputs);
 
-    const CaseOptions& options = mesh_case.options;
+    CaseOptions& options = mesh_case.options;
+    options.conditions = conditions;
     const Geometry geometry = read_geometry(mesh_case.inputs, options.geometry);
     const ReferenceConditions reference = reference_conditions(conditions, reference_box(geometry));
     print_warnings_of_reader(geometry);
     const FlowText text = solve(geometry, prepare_surfaces(geometry, options.surface, reference.chord), conditions,
-                                reference.reynolds.has_value());
+                                flow_walls(geometry, options), reference.reynolds.has_value());
     if (!arguments.mach_picture.empty() && !text.compressible)
         throw UsageError(
             "option --mach-picture: at this Mach number the flow is slower than sound, but for short peaks");
@@ -286,6 +291,8 @@ void add_flow_command(CLI::App& app) {
     command->add_option("INPUT", arguments->inputs, input_help);
     for (const char* name : {"alpha", "mach", "reynolds", "velocity", "viscosity", "chord"})
         add_table_option(*command, option_table<FlowConditions>(), name, arguments->conditions[name]);
+    for (const char* name : {"ground", "tunnel"})
+        add_table_option(*command, option_table<FarFieldOptions>(), name, arguments->walls[name]);
     command
         ->add_option("-o,--output", arguments->table,
                      "CSV file to write: speed, pressure and boundary layer along each side, or pressure, "

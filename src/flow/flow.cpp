@@ -54,9 +54,10 @@ std::optional<Defect> find_wild_speed(std::span<const PanelSheet> sheets) {
 
 /// Looks at the velocities through the middles of some panels, whose median tells whether the panels are short enough
 /// for the flow. Beside sharp corners, where the velocity is infinite, no panel is.
-std::optional<Defect> find_leak(std::span<const PanelSheet> sheets, double alpha_deg) {
+std::optional<Defect> find_leak(const Flow& flow) {
     constexpr std::size_t max_samples = 40;
-    const SheetVelocity velocity(sheets, alpha_deg);
+    const std::span<const PanelSheet> sheets = sheets_of(flow);
+    const SheetVelocity velocity(flow);
     for (std::size_t e = 0; e < sheets.size(); ++e) {
         const PanelSheet& sheet = sheets[e];
         const std::size_t panels = sheet.nodes.size() - 1, stride = 1 + panels / max_samples;
@@ -154,15 +155,15 @@ namespace lamina {
 
 using namespace flow;
 
-Flow solve_flow(const Geometry& geometry, const FlowConditions& conditions) {
+Flow solve_flow(const Geometry& geometry, const FlowConditions& conditions, const FlowWalls& walls) {
     const ReferenceConditions reference = reference_conditions(conditions, reference_box(geometry));
     Flow flow;
     flow.alpha_deg = reference.alpha_deg;
     flow.chord = reference.chord;
     const std::vector<Contour> contours = make_contours(geometry);
-    flow.panels = std::make_shared<const PanelSolution>(solve_panels(contours, flow.alpha_deg));
+    flow.panels = std::make_shared<const PanelSolution>(solve_panels(contours, flow.alpha_deg, walls));
     std::optional<Defect> defect = find_wild_speed(flow.panels->sheets);
-    if (!defect) defect = find_leak(flow.panels->sheets, flow.alpha_deg);
+    if (!defect) defect = find_leak(flow);
     if (!defect) defect = add_elements(flow);
     if (defect) fall_back(flow, contours, geometry, *defect);
     double total = 0;
@@ -202,6 +203,6 @@ double largest_skin_friction(const ElementFlow& element) {
     return std::max(largest_on_walls(element, &FlowPoint::skin_friction), rise_at_corners * at_corners);
 }
 
-Point flow_velocity(const Flow& flow, Point p) { return SheetVelocity(sheets_of(flow), flow.alpha_deg)(p); }
+Point flow_velocity(const Flow& flow, Point p) { return SheetVelocity(flow)(p); }
 
 }  // namespace lamina

@@ -52,11 +52,12 @@ Body make_body(const Contour& contour, std::size_t column, Point origin, double 
     return body;
 }
 
-/// Adds to a row of the system what unit strengths at the nodes of a body give to the stream function at a point.
-void add_sheet(std::span<double> row, const Body& body, Point p, std::span<LoggedNode> seen) {
+/// Adds to a row of the system what unit strengths at the nodes of a body give to the stream function at a point, times a
+/// factor.
+void add_sheet(std::span<double> row, const Body& body, Point p, double times, std::span<LoggedNode> seen) {
     const std::size_t n = body.nodes.size();
     for (std::size_t j = 0; j < n; ++j) seen[j] = see_with_log(body.nodes[j], p);
-    constexpr double factor = 1 / (2 * core::pi);
+    const double factor = times / (2 * core::pi);
     for (std::size_t j = 0; j + 1 < n; ++j) {
         const SeenPanel panel = see_panel(seen[j], seen[j + 1], body.lengths[j], body.along[j]);
         const PanelIntegrals log = integrate_log(panel, seen[j], seen[j + 1]);
@@ -79,18 +80,19 @@ double base_stream_function(const Body& body, Point p, double direction_angle, b
     return (vortices + body.base_source * angles) / (2 * core::pi);
 }
 
-/// Adds to the rows of a body what the base of another one, or its own, gives to the stream function at its nodes.
-void add_base(std::vector<double>& matrix, std::size_t size, const Body& at, const Body& of) {
+/// Adds to the rows of a body what an image of the base of another one, or of its own, gives to the stream function at its
+/// nodes.
+void add_base(std::vector<double>& matrix, std::size_t size, const Body& at, const Body& of, const Image& image) {
     double angle = 0;
     Point last{};
     for (std::size_t i = 0; i < at.nodes.size(); ++i) {
-        const Point p = at.nodes[i], from_start = p - of.nodes.back();
+        const Point p = image.seen_from(at.nodes[i]), from_start = p - of.nodes.back();
         const bool is_at_start = squared_length(from_start) == 0;
         if (!is_at_start) {
             angle += core::angle_between(i == 0 ? of.base_along : last, from_start);
             last = from_start;
         }
-        const double value = 0.5 * base_stream_function(of, p, angle, is_at_start);
+        const double value = 0.5 * image.stream_function_factor() * base_stream_function(of, p, angle, is_at_start);
         double* const row = matrix.data() + (at.column + i) * size + of.column;
         row[0] -= value;  // the speed at the trailing edge is half the difference of the strengths there
         row[of.nodes.size() - 1] += value;
@@ -128,24 +130,34 @@ void add_kutta_conditions(std::vector<double>& matrix, std::size_t size, const B
     }
 }
 
-std::vector<Body> make_bodies(std::span<const Contour> contours) {
+/// The bodies, and the walls in their units.
+struct Bodies {
+    std::vector<Body> bodies;
+    FlowWalls walls;
+};
+
+Bodies make_bodies(std::span<const Contour> contours, const FlowWalls& walls) {
     // The logarithms of lengths depend on their unit. The extent of the bodies takes its place, so that scaling by a
     // power of two changes no bit.
     Box box;
     for (const Contour& contour : contours)
         for (const Point p : contour.nodes) box.include(p);
-    std::vector<Body> bodies;
+    const double unit_length = std::max(box.width(), box.height());
+    Bodies result;
     std::size_t column = 0;
     for (const Contour& contour : contours) {
-        bodies.push_back(make_body(contour, column, box.lower, std::max(box.width(), box.height())));
+        result.bodies.push_back(make_body(contour, column, box.lower, unit_length));
         column += contour.nodes.size() + 1;
     }
-    return bodies;
+    if (walls.below) result.walls.below = (*walls.below - box.lower.y) / unit_length;
+    if (walls.above) result.walls.above = (*walls.above - box.lower.y) / unit_length;
+    return result;
 }
 
 /// Returns the strengths in the free stream, and those that each body in turn adds whose trailing edge has a unit of
 /// circulating flow round it, contrary to its Kutta condition.
-std::vector<std::vector<double>> solve_strengths(std::span<const Body> bodies, Point stream) {
+std::vector<std::vector<double>> solve_strengths(std::span<const Body> bodies, std::span<const Image> images,
+                                                 Point stream) {
     const std::size_t size = bodies.back().column + bodies.back().nodes.size() + 1;
     std::vector<double> matrix(size * size), right_side(size);
     std::vector<std::vector<double>> right_sides(1);
@@ -155,11 +167,14 @@ std::vector<std::vector<double>> solve_strengths(std::span<const Body> bodies, P
             std::vector<LoggedNode> seen(size);
             for (std::size_t i = begin; i < end; ++i) {
                 const std::span<double> row = std::span(matrix).subspan((at.column + i) * size, size);
-                for (const Body& of : bodies) add_sheet(row, of, at.nodes[i], seen);
+                for (const Image& image : images)
+                    for (const Body& of : bodies)
+                        add_sheet(row, of, image.seen_from(at.nodes[i]), image.stream_function_factor(), seen);
             }
         });
-        for (const Body& of : bodies)
-            if (of.blunt) add_base(matrix, size, at, of);
+        for (const Image& image : images)
+            for (const Body& of : bodies)
+                if (of.blunt) add_base(matrix, size, at, of, image);
         const std::size_t constant = at.column + at.nodes.size();
         for (std::size_t i = 0; i < at.nodes.size(); ++i) {
             matrix[(at.column + i) * size + constant] = -1;
@@ -215,11 +230,13 @@ Point leaving_direction(std::span<const Point> nodes) {
     return unit(unit(nodes[0] - nodes[1]) + unit(nodes[last] - nodes[last - 1]));
 }
 
-PanelSolution solve_panels(std::span<const Contour> contours, double alpha_deg) {
+PanelSolution solve_panels(std::span<const Contour> contours, double alpha_deg, const FlowWalls& walls) {
     if (contours.empty()) return {};
-    const std::vector<Body> bodies = make_bodies(contours);
-    std::vector<std::vector<double>> strengths = solve_strengths(bodies, free_stream(alpha_deg));
-    PanelSolution solution{make_sheets(contours, bodies, strengths.front()), {}};
+    const auto [bodies, scaled_walls] = make_bodies(contours, walls);
+    std::vector<Image> images{{false, 0, 1}};  // the bodies themselves first
+    for (const Image& image : images_in(scaled_walls)) images.push_back(image);
+    std::vector<std::vector<double>> strengths = solve_strengths(bodies, images, free_stream(alpha_deg));
+    PanelSolution solution{make_sheets(contours, bodies, strengths.front()), {}, walls};
 
     // As much flow round each trailing edge as takes all circulation away.
     const std::size_t n = bodies.size();
@@ -238,7 +255,11 @@ PanelSolution solve_panels(std::span<const Contour> contours, double alpha_deg) 
     return solution;
 }
 
-SheetVelocity::SheetVelocity(std::span<const PanelSheet> sheets, double alpha_deg) : stream_(free_stream(alpha_deg)) {
+SheetVelocity::SheetVelocity(const Flow& flow)
+    : SheetVelocity(sheets_of(flow), flow.alpha_deg, flow.panels ? flow.panels->walls : FlowWalls{}) {}
+
+SheetVelocity::SheetVelocity(std::span<const PanelSheet> sheets, double alpha_deg, const FlowWalls& walls)
+    : stream_(free_stream(alpha_deg)), images_(images_in(walls)) {
     for (const PanelSheet& sheet : sheets) {
         starts_.push_back(sheet.nodes.front());
         std::vector<Panel>& panels = sheets_.emplace_back();
@@ -256,7 +277,13 @@ SheetVelocity::SheetVelocity(std::span<const PanelSheet> sheets, double alpha_de
 }
 
 Point SheetVelocity::operator()(Point p) const {
-    Point velocity = stream_;
+    Point velocity = stream_ + induced_by_sheets(p);
+    for (const Image& image : images_) velocity = velocity + image.velocity(induced_by_sheets(image.seen_from(p)));
+    return velocity;
+}
+
+Point SheetVelocity::induced_by_sheets(Point p) const {
+    Point velocity;
     for (std::size_t e = 0; e < sheets_.size(); ++e) {
         SeenNode a = see(starts_[e], p);
         for (const Panel& panel : sheets_[e]) {

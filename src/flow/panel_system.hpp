@@ -8,6 +8,7 @@
 #include <lamina/point.hpp>
 
 #include "flow/contour.hpp"
+#include "flow/images.hpp"
 
 namespace lamina::flow {
 
@@ -30,6 +31,7 @@ struct PanelSheet {
 /// has no circulation round any of them.
 struct PanelSolution {
     std::vector<PanelSheet> sheets, without_lift;
+    FlowWalls walls;  ///< in which the sheets have images
 };
 
 /// Returns the sheets of a flow; none where it is an estimate.
@@ -37,8 +39,8 @@ inline std::span<const PanelSheet> sheets_of(const Flow& flow) {
     return flow.panels ? std::span<const PanelSheet>(flow.panels->sheets) : std::span<const PanelSheet>{};
 }
 
-/// Returns the sheets of all contours. Their strengths are not finite where the system is singular.
-PanelSolution solve_panels(std::span<const Contour> contours, double alpha_deg);
+/// Returns the sheets of all contours between walls, along which the stream runs. Their strengths are not finite where the system is singular.
+PanelSolution solve_panels(std::span<const Contour> contours, double alpha_deg, const FlowWalls& walls = {});
 
 /// Returns the direction in which the flow leaves the trailing edge: between the two sides.
 Point leaving_direction(std::span<const Point> nodes);
@@ -46,10 +48,11 @@ Point leaving_direction(std::span<const Point> nodes);
 /// Returns whether a base joins the last node to the first one.
 inline bool has_base(const PanelSheet& sheet) { return !(sheet.nodes.front() == sheet.nodes.back()); }
 
-/// The velocity that sheets add to the free stream. Lengths and directions of panels are worked out once, for many points.
+/// The velocity that sheets, and their images in walls, add to the free stream. Lengths and directions of panels are worked out once, for many points.
 class SheetVelocity {
 public:
-    SheetVelocity(std::span<const PanelSheet> sheets, double alpha_deg);
+    SheetVelocity(std::span<const PanelSheet> sheets, double alpha_deg, const FlowWalls& walls = {});
+    explicit SheetVelocity(const Flow& flow);
 
     /// Returns the velocity at a point. On a panel, where the velocity along it jumps, that of either side may be
     /// returned.
@@ -63,7 +66,11 @@ private:
         double length, strength, slope, source;
     };
 
+    /// Returns what the sheets without their images induce at a point.
+    Point induced_by_sheets(Point p) const;
+
     Point stream_;
+    std::vector<Image> images_;
     std::vector<Point> starts_;  ///< of the sheets
     std::vector<std::vector<Panel>> sheets_;
 };

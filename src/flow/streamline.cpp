@@ -119,7 +119,7 @@ std::vector<Point> streamline(const Flow& flow, Point from, double length, const
         points.push_back(*behind);
     }
     if (!(done < length)) return points;
-    const SheetVelocity velocity(sheets_of(flow), flow.alpha_deg);
+    const SheetVelocity velocity(flow);
     FlowingPoint last{points.back(), velocity(points.back())};
     const double longest = options.max_step * flow.chord, shortest = 1e-6 * longest;
     double h = 0.1 * longest;

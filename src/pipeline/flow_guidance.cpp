@@ -116,10 +116,11 @@ std::vector<FlowSpacing> smallest_spacings(std::span<const geometry::WallSpacing
     return facts;
 }
 
-FlowGuidance guide_by_flow(const Geometry& geometry, const FlowConditions& flow_conditions, const LayerOptions& options,
-                           const ReferenceConditions& conditions, layers::LayerGrowth& growth) {
+FlowGuidance guide_by_flow(const Geometry& geometry, const FlowWalls& walls, const FlowConditions& flow_conditions,
+                           const LayerOptions& options, const ReferenceConditions& conditions,
+                           layers::LayerGrowth& growth) {
     FlowGuidance guidance;
-    guidance.flow = solve_flow(geometry, flow_conditions);
+    guidance.flow = solve_flow(geometry, flow_conditions, walls);
     const Flow& flow = *guidance.flow;
     if (!flow.estimated) guidance.wakes = wakes_of_flow(flow, growth.fineness);
     if (options.enabled) {

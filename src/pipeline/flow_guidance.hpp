@@ -64,10 +64,11 @@ struct FlowGuidance {
     bool knows_shocks = false;        ///< FlowDecisions::knows_shocks
 };
 
-/// Solves the flow round these bodies. Its first heights for the y+ of the options, its least heights and wakes go to `growth`.
+/// Solves the flow round these bodies between the walls of the domain. Its first heights for the y+ of the options, its least heights and wakes go to `growth`.
 /// Beyond the critical Mach number it solves the compressible flow, too, and makes walls and sizes fine at shocks.
-FlowGuidance guide_by_flow(const Geometry& geometry, const FlowConditions& flow_conditions, const LayerOptions& options,
-                           const ReferenceConditions& conditions, layers::LayerGrowth& growth);
+FlowGuidance guide_by_flow(const Geometry& geometry, const FlowWalls& walls, const FlowConditions& flow_conditions,
+                           const LayerOptions& options, const ReferenceConditions& conditions,
+                           layers::LayerGrowth& growth);
 
 /// Returns the lines for layers that go on along these wakes, with heights that hold half of the wake and the boundary
 /// layers of the trailing edges. `heights` are those of heights_of_flow().

@@ -7,6 +7,7 @@
 #include "core/limits.hpp"
 #include "core/option_rows.hpp"
 #include "core/reproducible_math.hpp"
+#include "decoupling/far_field.hpp"
 #include "pipeline/derived_options.hpp"
 #include "sizing/requests.hpp"
 
@@ -104,6 +105,28 @@ OptionTable<CaseOptions> option_rows() {
 }
 template LAMINA_EXPORT const OptionTable<CaseOptions>& option_table();
 
+namespace {
+
+void require_stream_along_walls(const CaseOptions& options) {
+    if (options.conditions.alpha_deg != 0 && (options.far_field.tunnel || options.far_field.ground))
+        throw OptionError("alpha",
+                          "the flow runs along ground and tunnel walls: turn the configuration, as with --transform "
+                          "all:rotate:-10");
+}
+
+}  // namespace
+
+FlowWalls flow_walls(const Geometry& geometry, const CaseOptions& options) {
+    require_stream_along_walls(options);
+    const double chord = reference_conditions(options.conditions, reference_box(geometry)).chord;
+    const decoupling::FarField far_field =
+        decoupling::place_far_field(bounding_box(geometry), chord, options.far_field);
+    FlowWalls walls;
+    if (std::isfinite(far_field.floor)) walls.below = far_field.floor;
+    if (std::isfinite(far_field.ceiling)) walls.above = far_field.ceiling;
+    return walls;
+}
+
 void validate(const CaseOptions& options) {
     validate(options.geometry);
     validate(options.conditions);
@@ -120,10 +143,7 @@ void validate(const CaseOptions& options) {
         throw OptionError("y_plus", "needs reynolds, or velocity and viscosity");
     if (options.use_flow && !options.conditions.reynolds && !options.conditions.velocity)
         throw OptionError("use_flow", "needs reynolds, or velocity and viscosity");
-    if (options.conditions.alpha_deg != 0 && (options.far_field.tunnel || options.far_field.ground))
-        throw OptionError("alpha",
-                          "the flow runs along ground and tunnel walls: turn the configuration, as with --transform "
-                          "all:rotate:-10");
+    require_stream_along_walls(options);
     if (options.layer.enabled && options.layer.wake_layers) {
         if (!options.use_flow) throw OptionError("wake_layers", "needs use_flow, which finds the wakes");
         if (options.layer.layers) throw OptionError("wake_layers", "needs layers up to isotropy: layers auto");

@@ -101,7 +101,8 @@ MadeMesh run(const Geometry& given, CaseOptions options, MeshDriver& driver, Sta
     FlowGuidance guidance;
     if (options.use_flow) {
         clock.begin("flow");
-        guidance = guide_by_flow(given, options.conditions, options.layer, conditions, growth);
+        guidance =
+            guide_by_flow(given, flow_walls(given, options), options.conditions, options.layer, conditions, growth);
         if (!decides_on_sizes(options.sizing))
             options.sizing.sources.insert(options.sizing.sources.end(), guidance.sources.begin(),
                                           guidance.sources.end());

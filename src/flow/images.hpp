@@ -1,0 +1,46 @@
+// The images of bodies in flat walls that the flow does not cross.
+//
+//      body
+//   ---------- wall      a mirrored body of opposite circulation makes the wall a streamline
+//      image
+//
+// Source: J. Katz, A. Plotkin, Low-Speed Aerodynamics, 2nd ed. (2001), section 4.9 and 5.5 (method of images).
+#pragma once
+
+#include <vector>
+
+#include <lamina/flow.hpp>
+
+namespace lamina::flow {
+
+/// An image of all bodies. What it gives at a point is what the bodies give at another one.
+struct Image {
+    bool is_mirrored;
+    double shift;
+    double share;  ///< of the image's strength that counts
+
+    /// Returns the point that lies to the bodies as p lies to the image.
+    Point seen_from(Point p) const { return {p.x, (is_mirrored ? -p.y : p.y) + shift}; }
+    /// Returns the factor of the stream function of the bodies.
+    double stream_function_factor() const { return is_mirrored ? -share : share; }
+    /// Returns the velocity that the image induces where the bodies induce this one at seen_from().
+    Point velocity(Point of_bodies) const {
+        return share * Point{of_bodies.x, is_mirrored ? -of_bodies.y : of_bodies.y};
+    }
+};
+
+/// Returns the images in these walls. Those in two walls have images themselves, without end, of alternating circulation:
+/// their sum ends with half of a term, so that it is in the middle of its last two values.
+inline std::vector<Image> images_in(const FlowWalls& walls) {
+    if (!walls.below && !walls.above) return {};
+    if (!walls.below || !walls.above) return {{true, 2 * (walls.below ? *walls.below : *walls.above), 1}};
+    constexpr int last = 4;
+    const double period = 2 * (*walls.above - *walls.below);
+    std::vector<Image> images;
+    for (int k = 1 - last; k <= last; ++k) images.push_back({true, 2 * *walls.below + k * period, 1});
+    for (int k = 1; k <= last; ++k)
+        for (const int sign : {-1, 1}) images.push_back({false, sign * k * period, k < last ? 1 : 0.5});
+    return images;
+}
+
+}  // namespace lamina::flow

@@ -1,0 +1,78 @@
+// Flow along walls of the domain, compared with what images are, and with a classical result.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <lamina/flow.hpp>
+
+#include "flow/panel_system.hpp"
+#include "flow/sample_configurations.hpp"
+#include "support/shapes.hpp"
+
+namespace lamina::test {
+namespace {
+
+using shapes::geometry;
+using shapes::Outline;
+
+/// Returns the configuration with its mirror image in the x axis, as bodies of their own.
+Geometry with_image(Geometry given) {
+    const std::size_t bodies = given.elements.size();
+    for (std::size_t e = 0; e < bodies; ++e)
+        given.elements.push_back(
+            element_of_points(shapes::mirrored(given.elements[e].points), "image" + std::to_string(e)));
+    return make_geometry(std::move(given.elements));
+}
+
+Geometry raised(const Geometry& given, double height) {
+    std::vector<Element> elements;
+    for (const Element& element : given.elements)
+        elements.push_back(element_of_points(shapes::moved(element.points, 0, 1, {0, height}), element.name));
+    return make_geometry(std::move(elements));
+}
+
+TEST(FlowAlongWalls, GroundIsThatOfTheMirroredBodies) {
+    const Outline section = naca_airfoil("4412", 100).points, blunt = shapes::section(0.15, 0.02, 80);
+    for (const double clearance : {0.05, 0.3, 2.0})
+        for (const Geometry& at_origin : {geometry({shapes::moved(section, -0.1, 1, {})}),
+                                          geometry({shapes::moved(blunt, -0.1, 1, {})}), three_elements()}) {
+            double lowest = HUGE_VAL;
+            for (const Element& element : at_origin.elements)
+                for (const Point p : element.points) lowest = std::min(lowest, p.y);
+            const Geometry above = raised(at_origin, clearance - lowest);
+            const Flow flow = solve_flow(above, {}, {.below = 0.0}), both = solve_flow(with_image(above));
+            ASSERT_FALSE(flow.estimated);
+            for (std::size_t e = 0; e < above.elements.size(); ++e) {
+                const auto &with_wall = flow.panels->sheets[e].strengths, &with_body = both.panels->sheets[e].strengths;
+                ASSERT_EQ(with_wall.size(), with_body.size());
+                for (std::size_t i = 0; i < with_wall.size(); ++i) EXPECT_NEAR(with_wall[i], with_body[i], 5e-6);
+            }
+            for (const Point p : {Point{0.3, 0}, Point{2, 0}, Point{-3, 0}}) {
+                EXPECT_NEAR(flow_velocity(flow, p).y, 0, 1e-12);
+                EXPECT_NEAR(flow_velocity(flow, p).x, flow_velocity(both, p).x, 1e-5);
+            }
+        }
+}
+
+/// A flat plate half way between walls lifts as much more as pi^2 / 24 (chord / height)^2, to the first order.
+/// Source: H. Glauert, Wind tunnel interference on wings, bodies and airscrews, R. & M. 1566 (1933).
+TEST(FlowAlongWalls, TunnelWallsRaiseTheLiftOfAPlate) {
+    const Outline plate = shapes::moved(naca_airfoil("0002", 200).points, -2 * std::numbers::pi / 180, 1, {});
+    const double free = solve_flow(geometry({plate})).lift;
+    for (const double height : {2.0, 3.0, 5.0}) {
+        const double middle = -0.5 * std::sin(2 * std::numbers::pi / 180);
+        const Flow flow =
+            solve_flow(geometry({plate}), {}, {.below = middle - height / 2, .above = middle + height / 2});
+        const double expected = std::numbers::pi * std::numbers::pi / 24 / (height * height);
+        EXPECT_NEAR(flow.lift / free - 1, expected, 0.12 * expected) << height;
+        for (const double wall : {-0.5, 0.5})
+            for (const double x : {-1.0, 0.5, 2.0})
+                EXPECT_NEAR(flow_velocity(flow, {x, middle + wall * height}).y, 0, 1e-3) << height << " " << x;
+    }
+}
+
+}  // namespace
+}  // namespace lamina::test
