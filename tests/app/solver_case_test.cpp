@@ -426,6 +426,54 @@ TEST(SolverCaseCommand, Su2IsRunThroughItsAnglesAndSummedUp) {
     EXPECT_EQ(result["steady_in_the_mean"], false);
 }
 
+/// A stand-in for SU2_CFD that starts with a steady run, and whose lift then swings with a frequency of 0.2 per chord.
+TEST(SolverCaseCommand, Su2IsRunInTimeAndSummedUp) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(run_lamina(folder, small_case("su2", {"--unsteady"})).exit_code, 0);
+    fs::create_directories(folder / "bin");
+    folder.write("bin/SU2_CFD", R"sh(#!/bin/sh
+grep -E '^(TIME_DOMAIN|TIME_ITER|ITER|RESTART_SOL)=' "$1" | sort | tr '\n' ' ' >>asked
+echo >>asked
+if grep -q '^TIME_DOMAIN= NO' "$1"; then
+    printf '"PointID","x","y","Density","Momentum_x","Momentum_y","Energy"\n0, 0.5, 0.0, 1.0, 0.15, 0.0, 2\n' >restart_flow.csv
+    exit
+fi
+awk '/^TIME_ITER=/ { n = $2 } END {
+    print "\"Time_Iter\", \"CD\", \"CL\", \"CMz\""
+    for (i = 2; i < n; ++i) printf "%d, 0.3, %.8f, -0.006\n", i, 0.5 + 0.1 * sin(6.283185307 * 0.2 * (i - 1) / steps)
+}' steps="$(sed -n 's/^steps=\([0-9]*\).*/\1/p' Allrun)" "$1" >history_00002.csv
+for step in 00009 00012; do
+    awk -v y="$step" 'BEGIN { print "\"Point\",\"x\",\"Y_Plus\""; for (i = 0; i < 3; ++i) print i ", 0.0, " y / 10 }' \
+        >surface_flow_$step.csv
+    echo flow >flow_$step.vtu
+done
+)sh");
+    const auto run = [&](const char* variables) {
+        const std::string path = folder.path().string();
+        return WEXITSTATUS(std::system(fmt::format("chmod +x '{0}/bin/SU2_CFD' && {1} PATH='{0}/bin':$PATH "
+                                                   "'{0}/c/Allrun' >'{0}/said' 2>&1",
+                                                   path, variables)
+                                           .c_str()));
+    };
+    EXPECT_EQ(run("TIMES=ten"), 1);
+    ASSERT_EQ(run("TIMES=40"), 0) << folder.read("said");
+    const std::string asked = folder.read("c/asked");
+    EXPECT_NE(asked.find("ITER= 150 RESTART_SOL= NO TIME_DOMAIN= NO \n"), std::string::npos) << asked;
+    EXPECT_NE(asked.find("RESTART_SOL= YES TIME_DOMAIN= YES TIME_ITER= "), std::string::npos) << asked;
+    // The gust: three tenths of the momentum across it, in the middle of the chord.
+    const std::string gust = folder.read("c/solution_flow_00001.csv");
+    EXPECT_EQ(gust, folder.read("c/solution_flow_00000.csv"));
+    EXPECT_NE(gust.find("4.5000"), std::string::npos) << gust;
+    const auto result = nlohmann::json::parse(folder.read("c/result.json"));
+    EXPECT_NEAR(result["Strouhal"], 0.2, 1e-3);
+    EXPECT_NEAR(result["CL"], 0.5, 1e-3);
+    EXPECT_NEAR(result["CM"], 0.006, 1e-9) << "nose up";
+    EXPECT_NEAR(result["y_plus"]["airfoil"]["largest"], 1.2, 1e-9) << "at the last time";
+    EXPECT_EQ(std::system(("'" + (folder / "c/Allclean").string() + "'").c_str()), 0);
+    for (const char* left : {"c/result.json", "c/flow.vtu", "c/solution_flow_00000.csv"})
+        EXPECT_FALSE(fs::exists(folder / left)) << left;
+}
+
 /// Returns the points of a circle of diameter 1.
 std::string circle_of(int points) {
     std::string circle;
