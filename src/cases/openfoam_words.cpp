@@ -83,7 +83,10 @@ void add_time(const CaseFlow& flow, Words& words) {
     const TimeSteps time = flow.time.value_or(TimeSteps{});
     words["TIME_SCHEME"] =
         unsteady ? "#include        \"march\"\n    default         $timeScheme;" : "default         steadyState;";
-    words["TIME_STEP"] = unsteady ? number(flow.chord / flow.velocity / time.per_time) : "1";
+    words["MARCH"] =
+        unsteady ? "#include        \"march\"         // the step, and from when on fields are averaged\n" : "";
+    words["TIME_STEP"] = unsteady ? "$timeStep" : "1";
+    words["STEP"] = number(flow.chord / flow.velocity / time.per_time);
     words["STEPS"] = fmt::format("{}", time.per_time);
     words["TIMES"] = fmt::format("{}", time.times);
     words["TIME_AXIS"] = unsteady ? "time" : "iteration";
@@ -100,7 +103,6 @@ void add_time(const CaseFlow& flow, Words& words) {
     {
         type            fieldAverage;
         libs            ("libfieldFunctionObjects.so");
-        #include        "march"
         timeStart       $averageFrom;
         writeControl    writeTime;
         fields

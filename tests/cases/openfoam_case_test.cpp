@@ -175,7 +175,8 @@ TEST(OpenFoamCase, StepsInTimeFollowTheMesh) {
     EXPECT_EQ(value_of(text_of(files, "system/fvSchemes"), "default"), "$timeScheme");
     std::smatch steps;
     ASSERT_TRUE(std::regex_search(run, steps, std::regex("step=(\\S+) steps=([0-9]+) ")));
-    const double step = std::stod(steps[1]), of_time = std::stod(value_of(control, "deltaT"));
+    const double step = std::stod(steps[1]), of_time = std::stod(value_of(text_of(files, "system/march"), "timeStep"));
+    EXPECT_EQ(value_of(control, "deltaT"), "$timeStep");
     EXPECT_EQ(step, of_time);
     EXPECT_NEAR(step * std::stod(steps[2]), 2.0 / 50, 1e-15);
     const Mesh mesh = case_mesh();
