@@ -62,6 +62,9 @@ struct FarFieldOptions {
     std::optional<Length> ground{};                    ///< distance of flat ground below the lowest point
     OuterWallKind ground_wall = OuterWallKind::slip;   ///< how the flow meets it
     std::optional<OuterLayers> ground_layers{};        ///< on it; empty: as on the bodies
+    /// The line y = Y, in units of the input, that cuts bodies and domain: what is above is kept.
+    std::optional<double> symmetry{};
+    bool axisymmetric = false;  ///< whether that line is the axis of a body of revolution
 };
 
 /// Throws OptionError where an option is out of range, and where the outline is no convex polygon.

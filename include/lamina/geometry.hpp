@@ -60,6 +60,9 @@ struct Element {
     /// Whether prepare_surfaces() kept the points since those asked for would have crossed.
     bool surface_restored = false;
     OutlineFeatures features;  ///< set by prepare_surfaces()
+    /// Whether the part of the outline below Geometry::symmetry is the image of that above, which the line cut off. The
+    /// outline then begins on the line, at the tail.
+    bool is_mirrored = false;
 };
 
 /// Bodies that are closed, simple and pairwise disjoint.
@@ -68,7 +71,14 @@ struct Geometry {
     /// The box round the elements without GeometryOptions' rotations and flaps, whose width is the chord. Empty where
     /// nothing is turned, and where the configuration stood upright.
     std::optional<Box> unturned_box{};
+    std::optional<double> symmetry{};  ///< the line of symmetry y = Y that cut_at_symmetry() cut the bodies at
 };
+
+/// Keeps of all bodies what is above the line y = Y. Those that the line cuts, or that stand on it, end on it exactly and
+/// are whole again by their images below (Element::is_mirrored); one that it cuts to several parts becomes several
+/// elements. Throws InputError for a body below the line, one that touches it at a single point, and one that encloses a
+/// part of the flow with it.
+LAMINA_EXPORT Geometry cut_at_symmetry(Geometry geometry, double y);
 
 LAMINA_EXPORT Box bounding_box(const Geometry& geometry);  ///< the box round all elements
 /// Returns the box whose width is the reference chord: Geometry::unturned_box, else bounding_box().

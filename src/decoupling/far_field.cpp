@@ -40,7 +40,8 @@ void require_resolved(const Box& bodies, const FarField& far_field, const char* 
 /// Walls that do not touch the bodies do not count.
 double room_around(const Box& bodies, const FarField& far_field) {
     if (far_field.has_walls()) {
-        if (!(far_field.floor < bodies.lower.y && bodies.upper.y < far_field.ceiling)) return -HUGE_VAL;
+        const bool is_above = far_field.is_half || far_field.floor < bodies.lower.y;
+        if (!(is_above && bodies.upper.y < far_field.ceiling)) return -HUGE_VAL;
         const Box domain = far_field.box();
         const double above = std::isfinite(far_field.ceiling) ? HUGE_VAL : domain.upper.y - bodies.upper.y;
         return std::min({bodies.lower.x - domain.lower.x, domain.upper.x - bodies.upper.x, above});
@@ -79,7 +80,11 @@ FarField between_walls(FarField box, const Box& bodies, double chord, const FarF
         floor = bodies.lower.y - in_units(*options.ground, chord);
         if (options.tunnel) ceiling = floor + height;
     }
-    if (!(floor < bodies.lower.y && bodies.upper.y < ceiling))
+    if (options.symmetry) {
+        floor = *options.symmetry;
+        box.is_half = true;
+    }
+    if (!((box.is_half || floor < bodies.lower.y) && bodies.upper.y < ceiling))
         throw OptionError(options.tunnel ? "tunnel" : "ground", "does not enclose the configuration");
     box.floor = floor;
     if (options.tunnel) box.ceiling = ceiling;
@@ -147,7 +152,8 @@ FarField place_far_field(const Box& bodies, double chord, const FarFieldOptions&
     FarField far_field{options.shape, bodies.center(), in_units(options.size, chord)};
     if (options.shape != FarFieldShape::outline) {
         require_resolved(bodies, far_field, "far_field");
-        return options.tunnel || options.ground ? between_walls(far_field, bodies, chord, options) : far_field;
+        return options.tunnel || options.ground || options.symmetry ? between_walls(far_field, bodies, chord, options)
+                                                                    : far_field;
     }
     far_field.outline = options.outline;
     for_each_edge(far_field.outline, [&](Point a, Point along) {

@@ -137,6 +137,13 @@ OptionTable<FarFieldOptions> option_rows() {
         Choices<OuterWallKind>{
             {"slip", OuterWallKind::slip}, {"no-slip", OuterWallKind::no_slip}, {"moving", OuterWallKind::moving}},
         member_at(&FarFieldOptions::ground_wall));
+    table
+        .number("symmetry", "Y",
+                "line of symmetry y = Y, in units of the input, that cuts bodies and domain: what is above is kept",
+                numbers_from_to(-1e6, 1e6), member_at(&FarFieldOptions::symmetry))
+        .excludes = {"far-field-shape", "far-field-outline", "tunnel", "ground"};
+    table.flag("axisymmetric", "that line is the axis of bodies of revolution", true,
+               member_at(&FarFieldOptions::axisymmetric));
     table.spec("ground-layers", "H", "the same on ground without slip, as tunnel-layers", parse_outer_layers,
                outer_layers_text, member_at(&FarFieldOptions::ground_layers));
     return table.take();
@@ -165,8 +172,15 @@ void require_convex(std::span<const Point> outline) {
 void validate(const FarFieldOptions& options) {
     require_in_range(option_table<FarFieldOptions>(), options);
     if (options.shape == FarFieldShape::outline) require_convex(options.outline);
-    if (options.shape != FarFieldShape::box && (options.tunnel || options.ground))
-        throw OptionError(options.tunnel ? "tunnel" : "ground", "needs the far field to be a box");
+    if (options.shape != FarFieldShape::box && (options.tunnel || options.ground || options.symmetry))
+        throw OptionError(options.symmetry ? "symmetry"
+                          : options.tunnel ? "tunnel"
+                                           : "ground",
+                          "needs the far field to be a box");
+    if (options.symmetry && (options.tunnel || options.ground))
+        throw OptionError("symmetry", "is the border below, where no ground or tunnel can be");
+    if (options.axisymmetric && !options.symmetry)
+        throw OptionError("axisymmetric", "needs symmetry, which is its axis");
     if (options.tunnel_upstream.has_value() != options.tunnel_downstream.has_value())
         throw OptionError("tunnel", "goes on upstream and downstream by lengths that are both given, or neither");
     if (options.tunnel_walls == OuterWallKind::moving) throw OptionError("tunnel_walls", "no wall of a tunnel moves");

@@ -73,14 +73,96 @@ void add_outer_wall(const OuterWall& wall, RaySet& set) {
     set.begin.push_back(set.lines.size());
 }
 
+/// Makes the rays of a body with a line of symmetry images of each other. Those that stand where the line meets the body,
+/// the first one and the last one above, lie in the line. Returns how many rays are not below it.
+std::size_t mirror_rays(const Element& element, double y, std::vector<RayLine>& rays) {
+    constexpr double least_rise = 0.02;  // of the next ray of a fan
+    const Point tail = element.points.front();
+    std::vector<RayLine> above;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const RayLine& ray = rays[i];
+        if (ray.origin.y < y) continue;
+        if (ray.origin.y > y) {
+            above.push_back(ray);
+            continue;
+        }
+        const bool is_first = above.empty() || above.back().origin != ray.origin;
+        const bool in_fan = rays[(i + 1) % rays.size()].origin == ray.origin || !is_first ||
+                            rays[(i + rays.size() - 1) % rays.size()].origin == ray.origin;
+        const bool is_tail = ray.origin == tail;
+        const auto add_on_line = [&] {
+            above.push_back(ray);
+            above.back().direction = {is_tail ? 1.0 : -1.0, 0};
+            above.back().corner_after.clear();
+            above.back().on_symmetry = true;
+        };
+        if (is_tail && is_first) add_on_line();
+        if (in_fan && ray.direction.y > least_rise) {
+            above.push_back(ray);
+        } else if (!is_tail && !above.back().on_symmetry) {
+            add_on_line();
+        }
+    }
+    const auto image = [&](Point p) { return Point{p.x, 2 * y - p.y}; };
+    const auto corner_before = [&](std::size_t i) {
+        std::vector<Point> corner;
+        for (const Point p : above[i - 1].corner_after) corner.insert(corner.begin(), image(p));
+        return corner;
+    };
+    const std::size_t shown = above.size();
+    above.back().corner_after = corner_before(shown - 1);
+    for (std::size_t i = shown - 1; i-- > 1;) {
+        RayLine& ray = above.emplace_back(RayLine(above[i]));
+        ray.origin = image(ray.origin);
+        ray.direction.y = -ray.direction.y;
+        ray.corner_after = corner_before(i);
+    }
+    rays = std::move(above);
+    return shown;
+}
+
+/// Adds the images of rays in a line of symmetry, in the order of the wall.
+void add_image(const RaySet& set, std::size_t element, double y, std::vector<RayLine>& images) {
+    const auto image = [&](Point p) { return Point{p.x, 2 * y - p.y}; };
+    const std::size_t begin = set.begin[element], end = set.begin[element + 1];
+    for (std::size_t i = end; i-- > begin;) {
+        RayLine& ray = images.emplace_back(RayLine(set.lines[i]));
+        ray.origin = image(ray.origin);
+        ray.direction.y = -ray.direction.y;
+        ray.corner_after.clear();
+        for (const Point p : set.lines[i > begin ? i - 1 : end - 1].corner_after)
+            ray.corner_after.insert(ray.corner_after.begin(), image(p));
+    }
+}
+
 /// The walls that rays grow from.
 struct Walls {
     const Geometry& geometry;
     std::span<const OuterWall> outer;
+
+    /// Returns the numbers of the elements that have images below a line of symmetry: all others than those that it cuts,
+    /// unless it cuts none.
+    std::vector<std::size_t> with_images() const {
+        std::vector<std::size_t> result;
+        for (std::size_t e = 0; e < geometry.elements.size(); ++e)
+            if (!geometry.elements[e].is_mirrored) result.push_back(e);
+        return result.size() < geometry.elements.size() ? result : std::vector<std::size_t>{};
+    }
 };
 
+/// Adds the images of bodies in a line of symmetry.
+void add_images(const Walls& walls, RaySet& set) {
+    for (const std::size_t e : walls.with_images()) {
+        std::vector<RayLine> images;
+        add_image(set, e, *walls.geometry.symmetry, images);
+        set.lines.insert(set.lines.end(), images.begin(), images.end());
+        set.begin.push_back(set.lines.size());
+    }
+}
+
+/// Returns the rays of these walls. `shown` becomes the number of those in the domain, for each body.
 RaySet rays_of(const Walls& walls, std::span<const DividedWake> wakes, const LayerOptions& options,
-               const LayerGrowth& growth) {
+               const LayerGrowth& growth, std::vector<std::size_t>& shown) {
     const Geometry& geometry = walls.geometry;
     RaySet set;
     for (std::size_t e = 0; e < geometry.elements.size(); ++e) {
@@ -90,15 +172,17 @@ RaySet rays_of(const Walls& walls, std::span<const DividedWake> wakes, const Lay
         std::vector<RayVertex> outline = outline_with_wake(element.points, wake == wakes.end() ? nullptr : &*wake);
         const OutlineKind kind = outline_kind(element);
         const LayerGrowth own = growth_on_element(growth, e);
-        if (kind == OutlineKind::jagged && !options.equal_fans) leave_out_sharp_corners(own.first_height, outline);
+        if (kind == OutlineKind::jagged && !options.equal_fans && !element.is_mirrored)
+            leave_out_sharp_corners(own.first_height, outline);
         if (!own.least_heights.empty()) set_least_heights(own.least_heights, outline);
         const std::vector<RayLine> upright = make_rays(outline, kind, options, own);
-        const std::vector<RayLine> rays =
-            make_rays(outline, kind, options, own, heights_at_vertices(outline, upright, own));
+        std::vector<RayLine> rays = make_rays(outline, kind, options, own, heights_at_vertices(outline, upright, own));
+        shown.push_back(element.is_mirrored ? mirror_rays(element, *geometry.symmetry, rays) : rays.size());
         set.lines.insert(set.lines.end(), rays.begin(), rays.end());
         set.begin.push_back(set.lines.size());
     }
     for (const OuterWall& wall : walls.outer) add_outer_wall(wall, set);
+    add_images(walls, set);
     return set;
 }
 
@@ -146,18 +230,20 @@ void count_layers_on_all_rays(Rays& rays) {
     }
 }
 
-/// Returns the number behind the last ray in the domain, for each outer wall.
-std::vector<std::size_t> domain_ends(const RaySet& set, std::span<const OuterWall> outer) {
-    std::vector<std::size_t> ends;
-    const std::size_t bodies = set.elements() - outer.size();
-    for (std::size_t k = 0; k < outer.size(); ++k) ends.push_back(set.begin[bodies + k] + outer[k].in_domain);
+/// Returns the number behind the last ray in the domain, for each element. `shown` has the numbers of rays of bodies.
+std::vector<std::size_t> domain_ends(const RaySet& set, std::span<const std::size_t> shown,
+                                     std::span<const OuterWall> outer) {
+    std::vector<std::size_t> ends(set.begin.begin(), set.begin.end() - 1);
+    for (std::size_t e = 0; e < shown.size(); ++e) ends[e] += shown[e];
+    for (std::size_t k = 0; k < outer.size(); ++k) ends[shown.size() + k] += outer[k].in_domain;
     return ends;
 }
 
 /// Grows the rays of these walls and wakes.
 void grow_from(const Walls& walls, std::span<const DividedWake> wakes, const LayerOptions& options, Rays& rays) {
-    rays.set = rays_of(walls, wakes, options, rays.growth);
-    rays.outer_ends = domain_ends(rays.set, walls.outer);
+    std::vector<std::size_t> shown;
+    rays.set = rays_of(walls, wakes, options, rays.growth, shown);
+    rays.domain_ends = domain_ends(rays.set, shown, walls.outer);
     measure_room(rays);
     Box box = bounding_box(walls.geometry);
     for (const OuterWall& wall : walls.outer)
@@ -195,14 +281,19 @@ void add_wakes(const Walls& walls, const LayerOptions& options, Rays& rays) {
 }
 
 /// Returns one ray without a direction for each wall vertex: the rays where the layer is disabled.
-RaySet bare_walls(const Walls& walls) {
+RaySet bare_walls(const Walls& walls, std::vector<std::size_t>& shown) {
     RaySet set;
     const auto add = [&](const std::vector<Point>& points) {
         for (Point p : points) set.lines.push_back({p, {}});
         set.begin.push_back(set.lines.size());
     };
-    for (const Element& element : walls.geometry.elements) add(element.points);
+    for (const Element& element : walls.geometry.elements) {
+        add(element.points);
+        const std::size_t n = element.points.size();
+        shown.push_back(element.is_mirrored ? n / 2 + 1 : n);
+    }
     for (const OuterWall& wall : walls.outer) add(wall.points);
+    add_images(walls, set);
     return set;
 }
 
@@ -212,8 +303,11 @@ Rays grow_rays(const Geometry& geometry, const LayerOptions& options, const Laye
                std::span<const OuterWall> outer_walls) {
     validate(options);
     const Walls walls{geometry, outer_walls};
-    const std::size_t elements = geometry.elements.size() + outer_walls.size();
+    const std::vector<std::size_t> with_images = walls.with_images();
+    const std::size_t elements = geometry.elements.size() + outer_walls.size() + with_images.size();
     Rays rays;
+    rays.outer_walls = outer_walls.size();
+    rays.images = with_images.size();
     rays.enabled = options.enabled;
     rays.wake_lengths.assign(elements, 0.0);
     rays.resampled.reserve(geometry.elements.size());
@@ -221,11 +315,16 @@ Rays grow_rays(const Geometry& geometry, const LayerOptions& options, const Laye
         rays.resampled.push_back(element.resampled);
         rays.jagged.push_back(outline_kind(element) == OutlineKind::jagged);
     }
-    rays.resampled.resize(elements, true);
-    rays.jagged.resize(elements, false);
+    rays.resampled.resize(elements - with_images.size(), true);
+    rays.jagged.resize(elements - with_images.size(), false);
+    for (const std::size_t e : with_images) {
+        rays.resampled.push_back(rays.resampled[e]);
+        rays.jagged.push_back(rays.jagged[e]);
+    }
     if (!options.enabled) {
-        rays.set = bare_walls(walls);
-        rays.outer_ends = domain_ends(rays.set, outer_walls);
+        std::vector<std::size_t> shown;
+        rays.set = bare_walls(walls, shown);
+        rays.domain_ends = domain_ends(rays.set, shown, outer_walls);
         rays.counts.assign(rays.set.lines.size(), 0);
         rays.heights = LayerHeights({0.0}, std::vector<HeightColumn>(rays.set.lines.size()));
         return rays;
@@ -234,9 +333,11 @@ Rays grow_rays(const Geometry& geometry, const LayerOptions& options, const Laye
         throw OptionError("first_height", "needs one entry per element where elements have their own");
     rays.topology = options.topology;
     rays.growth = growth;
-    if (!outer_walls.empty()) {
-        rays.growth.first_heights.resize(geometry.elements.size(), growth.first_height);
-        for (const OuterWall& wall : outer_walls) rays.growth.first_heights.push_back(wall.first_height);
+    if (!outer_walls.empty() || !with_images.empty()) {
+        std::vector<double>& heights = rays.growth.first_heights;
+        heights.resize(geometry.elements.size(), growth.first_height);
+        for (const OuterWall& wall : outer_walls) heights.push_back(wall.first_height);
+        for (const std::size_t e : with_images) heights.push_back(double(heights[e]));
     }
     grow_from(walls, {}, options, rays);
     if (options.wake_layers && !growth.layers && !growth.wakes.empty()) add_wakes(walls, options, rays);

@@ -72,6 +72,7 @@ struct LayerEdges {
     std::vector<std::vector<Segment>> walls;  ///< one list per element, the mesh on the left: clockwise round the body
     std::vector<Segment> region;              ///< edges that bound the layer, the layer on their left
     std::vector<Segment> sides;               ///< those of them on the sides of the domain, beside outer walls
+    std::vector<Segment> symmetry;            ///< those of them on the line of symmetry, before and behind bodies
     /// Edges of outer borders between the layer and the outer region. Each has its smaller vertex first; sorted.
     std::vector<Segment> interfaces;
 };
@@ -127,8 +128,14 @@ struct Layer {
     /// domain to the other, and none of them is closed.
     std::size_t outer_walls = 0;
 
+    /// One per element: whether its wall and its border lead from one place on the border of the domain to another, as
+    /// those of outer walls do, and of bodies that a line of symmetry cuts.
+    std::vector<char> open{};
+
     /// Returns whether an element is an outer wall.
     bool is_outer(std::size_t element) const { return element + outer_walls >= borders.size(); }
+    /// Returns whether wall and border of an element are open.
+    bool is_open(std::size_t element) const { return open[element] != 0; }
 };
 
 /// Returns the edges of the walls and borders of a layer: Layer::edges.

@@ -68,14 +68,14 @@ std::vector<ElementCoverage> layer_coverage(const Rays& rays) {
     const auto& [set, heights, counts] = layered_rays(rays);
     const std::vector<std::size_t> next = set.following();
     const std::vector<char> open = open_rays(set, rays.asked, next);
-    std::vector<ElementCoverage> coverage(set.elements());
-    for (std::size_t e = 0; e < set.elements(); ++e) {
+    std::vector<ElementCoverage> coverage(rays.shown());
+    for (std::size_t e = 0; e < rays.shown(); ++e) {
         auto& [all, in_the_open, worst] = coverage[e];
         double most_missing = 0;
         for (std::size_t i = set.begin[e]; i < rays.domain_end(e); ++i) {
             if (set.lines[i].place != RayPlace::wall) continue;
             const std::uint32_t requested = heights.column(i).asked_layers;
-            const bool is_last = rays.is_outer(e) && i + 1 == rays.domain_end(e);
+            const bool is_last = rays.is_open(e) && i + 1 == rays.domain_end(e);
             const std::uint32_t requested_cells =
                 is_last ? 0 : std::min(requested, heights.column(next[i]).asked_layers);
             const std::uint32_t made_cells = is_last ? 0 : std::min(counts[i], counts[next[i]]);
@@ -149,7 +149,7 @@ BorderSteps border_steps(const Layer& layer) {
     BorderSteps steps;
     for (std::size_t e = 0; e < layer.rays.size(); ++e) {
         const std::vector<Ray>& rays = layer.rays[e];
-        for (std::size_t i = 0; i + layer.is_outer(e) < rays.size(); ++i) {
+        for (std::size_t i = 0; i + layer.is_open(e) < rays.size(); ++i) {
             const Ray &a = rays[i], &b = rays[i + 1 < rays.size() ? i + 1 : 0];
             if (a.requested == 0 && b.requested == 0) continue;
             ++steps.columns;

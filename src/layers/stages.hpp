@@ -37,6 +37,7 @@ struct RayLine {
     /// The wall's vertices between this ray and the next one, in their order: a sharp concave corner and those so near
     /// to it that no first layer fits between its sides. They have no rays. Empty elsewhere (docs/layer.md).
     std::vector<Point> corner_after{};
+    bool on_symmetry = false;  ///< whether it lies in the line of symmetry, and so do all its points, exactly
 };
 
 /// A stretch makes a column of layers end at a given height, with a given last spacing. Layers up to `above` keep their
@@ -127,17 +128,21 @@ struct Rays {
     std::vector<std::uint32_t> counts;  ///< number of layers on each ray
     std::vector<double> wake_lengths;   ///< one per element: length of the wake with layers, 0 without
     std::vector<WakeCore> cores;        ///< behind bases of elements whose layers go on along a wake
-    /// One per outer wall, which are the last elements: the number behind its last ray in the domain.
-    std::vector<std::size_t> outer_ends;
+    /// One per element: the number behind its last ray in the domain. All rays of a body are there, unless a line of
+    /// symmetry cuts it.
+    std::vector<std::size_t> domain_ends;
+    std::size_t outer_walls = 0;  ///< number of elements behind the bodies that are outer walls
+    std::size_t images =
+        0;  ///< number of last elements, the images of bodies in a line of symmetry: none is in the domain
 
-    /// Returns the number of elements that are bodies.
-    std::size_t bodies() const { return set.elements() - outer_ends.size(); }
+    /// Returns the number of elements of which a part is in the domain.
+    std::size_t shown() const { return set.elements() - images; }
     /// Returns whether an element is an outer wall.
-    bool is_outer(std::size_t element) const { return element >= bodies(); }
-    /// Returns the number behind the last ray of an element in the domain. All rays of a body are there.
-    std::size_t domain_end(std::size_t element) const {
-        return is_outer(element) ? outer_ends[element - bodies()] : set.begin[element + 1];
-    }
+    bool is_outer(std::size_t element) const { return element + outer_walls >= shown() && element < shown(); }
+    /// Returns the number behind the last ray of an element in the domain.
+    std::size_t domain_end(std::size_t element) const { return domain_ends[element]; }
+    /// Returns whether a part of an element is beyond the domain.
+    bool is_open(std::size_t element) const { return domain_ends[element] < set.begin[element + 1]; }
 };
 
 /// A straight wall on the border of the domain, as the ground is. For the rays it is a plate that goes on beyond both
@@ -155,7 +160,7 @@ struct OuterWall {
 /// one layer, every cell between them is positively oriented, and the fronts are simple and disjoint. Precondition:
 /// check_simple(geometry). Throws OptionError for options out of range, for heights below the resolution of the
 /// coordinates and for layers absurdly thicker than the input is wide. Outer walls become elements behind those of the
-/// geometry.
+/// geometry. Rays of bodies with a line of symmetry are images of each other; those on the line lie in it.
 Rays grow_rays(const Geometry& geometry, const LayerOptions& options, const LayerGrowth& growth,
                std::span<const OuterWall> outer_walls = {});
 

@@ -23,7 +23,8 @@ std::vector<Segment> take_base(const Element& element, std::span<const Point> po
         });
         return static_cast<std::size_t>(found - wall.begin());
     };
-    const std::size_t n = wall.size(), first = edge_at(element.features.base->first);
+    // The base of a body that a line of symmetry cuts begins on that line.
+    const std::size_t n = wall.size(), first = element.is_mirrored ? 0 : edge_at(element.features.base->first);
     const std::size_t length = (edge_at(element.features.base->last) + n - first) % n;
     assert(first < n && length > 0);
     std::vector<Segment> base, rest;

@@ -80,7 +80,7 @@ FittedLayer grow_within(const CaseOptions& options, Geometry geometry, const Ref
     decoupling::FarField far_field =
         decoupling::place_far_field(bounding_box(geometry), conditions.chord, options.far_field);
     std::vector<OuterWallFacts> outer_walls =
-        outer_wall_facts(far_field, options.far_field, options.layer, conditions, growth);
+        outer_wall_facts(far_field, options.far_field, geometry, options.layer, conditions, growth);
     std::vector<layers::OuterWall> divided;
     if (!outer_walls.empty())
         divided = divide_outer_walls(

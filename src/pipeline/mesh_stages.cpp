@@ -88,11 +88,17 @@ std::vector<double> first_heights_of_markers(const MeshResult& result, std::span
     return heights;
 }
 
-/// Divides the far field into inlet and outlet (`splits`), and adds the markers of outer walls.
-void complete_markers(const FittedLayer& fitted, const layers::Layer& layer, bool splits, MeshDriver& driver,
-                      std::span<const Point> points, std::vector<Marker>& markers) {
+/// Divides the far field into inlet and outlet, if the options ask for it, and adds the markers of outer walls and of a
+/// line of symmetry that cuts bodies.
+void complete_markers(const FittedLayer& fitted, const layers::Layer& layer, std::vector<Segment> symmetry,
+                      const CaseOptions& options, MeshDriver& driver, std::span<const Point> points,
+                      std::vector<Marker>& markers) {
     add_outer_walls(fitted.outer_walls, std::span(layer.edges.walls).last(layer.outer_walls), markers);
-    if (!splits) return;
+    if (!symmetry.empty()) {
+        const OuterWallFacts line{symmetry_name(options.far_field), fitted.far_field.floor, OuterWallKind::slip};
+        add_outer_walls({&line, 1}, {&symmetry, 1}, markers);
+    }
+    if (!options.inlet_outlet && !options.far_field.tunnel) return;
     driver.place_far_field();
     split_far_field(points, markers, fitted.conditions.alpha_deg);
 }
@@ -127,7 +133,7 @@ MadeMesh make_mesh(const FittedLayer& fitted, const CaseOptions& options, MeshDr
     std::vector<Segment> far_field = region.far_field;
     far_field.insert(far_field.end(), borders.far_field.begin(), borders.far_field.end());
     std::vector<Marker> markers = make_markers(fitted.geometry, layer, std::move(far_field), options.assemble);
-    complete_markers(fitted, layer, options.inlet_outlet || options.far_field.tunnel, driver, borders.points, markers);
+    complete_markers(fitted, layer, region.symmetry, options, driver, borders.points, markers);
     clock.end(&StageSeconds::decoupling);
 
     clock.begin("layer triangulation, refinement and check of pieces");

@@ -112,6 +112,8 @@ void require_stream_along_walls(const CaseOptions& options) {
         throw OptionError("alpha",
                           "the flow runs along ground and tunnel walls: turn the configuration, as with --transform "
                           "all:rotate:-10");
+    if (options.conditions.alpha_deg != 0 && options.far_field.symmetry)
+        throw OptionError("alpha", "the flow runs along the line of symmetry: alpha is 0 there");
 }
 
 }  // namespace
@@ -122,7 +124,10 @@ FlowWalls flow_walls(const Geometry& geometry, const CaseOptions& options) {
     const decoupling::FarField far_field =
         decoupling::place_far_field(bounding_box(geometry), chord, options.far_field);
     FlowWalls walls;
-    if (std::isfinite(far_field.floor)) walls.below = far_field.floor;
+    // Bodies that a line of symmetry cuts are whole in the geometry, and so make it a streamline themselves.
+    const bool is_cut = std::any_of(geometry.elements.begin(), geometry.elements.end(),
+                                    [](const Element& element) { return element.is_mirrored; });
+    if (std::isfinite(far_field.floor) && !is_cut) walls.below = far_field.floor;
     if (std::isfinite(far_field.ceiling)) walls.above = far_field.ceiling;
     return walls;
 }

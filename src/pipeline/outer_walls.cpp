@@ -1,6 +1,7 @@
 // Plates for the rays, and the border of the domain.
 #include "pipeline/outer_walls.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -53,8 +54,8 @@ layers::OuterWall plate(const OuterWallFacts& wall, std::vector<double> x, bool 
 }  // namespace
 
 std::vector<OuterWallFacts> outer_wall_facts(const decoupling::FarField& far_field, const FarFieldOptions& options,
-                                             const LayerOptions& layer, const ReferenceConditions& conditions,
-                                             const layers::LayerGrowth& growth) {
+                                             const Geometry& geometry, const LayerOptions& layer,
+                                             const ReferenceConditions& conditions, const layers::LayerGrowth& growth) {
     std::vector<OuterWallFacts> walls;
     const auto add = [&](const char* name, double y, OuterWallKind kind, const std::optional<OuterLayers>& layers,
                          const char* option) {
@@ -66,6 +67,9 @@ std::vector<OuterWallFacts> outer_wall_facts(const decoupling::FarField& far_fie
         add("ground", far_field.floor, options.ground_wall, options.ground_layers, "ground_layers");
     else if (options.tunnel)
         add("floor", far_field.floor, options.tunnel_walls, options.tunnel_layers, "tunnel_layers");
+    const bool is_cut = std::any_of(geometry.elements.begin(), geometry.elements.end(),
+                                    [](const Element& element) { return element.is_mirrored; });
+    if (options.symmetry && !is_cut) add(symmetry_name(options), far_field.floor, OuterWallKind::slip, {}, "");
     if (options.tunnel) add("ceiling", far_field.ceiling, options.tunnel_walls, options.tunnel_layers, "tunnel_layers");
     return walls;
 }
@@ -88,9 +92,72 @@ std::vector<layers::OuterWall> divide_outer_walls(std::span<const OuterWallFacts
     return divided;
 }
 
+const char* symmetry_name(const FarFieldOptions& options) { return options.axisymmetric ? "axis" : "symmetry"; }
+
+namespace {
+
+/// Closes the border of a domain whose line of symmetry cuts bodies:
+///
+///      ______________________________________
+///     |                  ____                |
+///     |                /      \              |
+///     |________________|      |______________|     <- the line, between the ends of the bodies' layers
+///                      first body
+///
+/// The border begins at the lower right corner and runs clockwise.
+void close_half(const layers::Layer& layer, const decoupling::FarField& far_field, const SizeField& size,
+                RegionBorders& result) {
+    const auto [lower_left, lower_right, upper_right, upper_left] = far_field.box().corners();
+    const auto x_of = [&](VertexId v) { return layer.points[v.index()].x; };
+    std::vector<std::vector<VertexId>> bodies, others;  // from the right to the left
+    for (std::size_t e = 0; e < layer.borders.size(); ++e)
+        (layer.is_open(e) ? bodies : others).push_back(layer.borders[e]);
+    std::sort(bodies.begin(), bodies.end(),
+              [&](const auto& a, const auto& b) { return x_of(a.front()) > x_of(b.front()); });
+    std::vector<VertexId> loop;
+    std::vector<Segment>* edges = &result.symmetry;
+    const auto add_vertex = [&](VertexId v) {
+        if (!loop.empty()) edges->push_back({v, loop.back()});
+        loop.push_back(v);
+    };
+    const auto add_point = [&](Point p) {
+        result.points.push_back(p);
+        add_vertex(VertexId(result.points.size() - 1));
+    };
+    // Adds the points between the last one and this one.
+    const auto divide_up_to = [&](Point end) {
+        const Point begin = result.points[loop.back().index()];
+        for (const Point p : decoupling::divide_separator(begin, end, size, 1))
+            add_point({p.x, begin.y == end.y ? begin.y : p.y});
+    };
+    add_point(lower_right);
+    for (const std::vector<VertexId>& body : bodies) {
+        divide_up_to(layer.points[body.front().index()]);
+        add_vertex(body.front());
+        loop.insert(loop.end(), body.begin() + 1, body.end());
+    }
+    divide_up_to(lower_left);
+    add_point(lower_left);
+    edges = &result.far_field;
+    for (const Point corner : {upper_left, upper_right}) {
+        divide_up_to(corner);
+        add_point(corner);
+    }
+    divide_up_to(lower_right);
+    edges->push_back({loop.front(), loop.back()});
+    result.symmetry.insert(result.symmetry.end(), layer.edges.symmetry.begin(), layer.edges.symmetry.end());
+    others.push_back(std::move(loop));
+    result.borders = std::move(others);
+}
+
+}  // namespace
+
 RegionBorders close_domain(const layers::Layer& layer, const decoupling::FarField& far_field, const SizeField& size) {
-    RegionBorders result{layer.points, layer.borders, layer.edges.sides};
-    if (layer.outer_walls == 0) return result;
+    RegionBorders result{layer.points, layer.borders, layer.edges.sides, {}};
+    if (layer.outer_walls == 0) {
+        if (far_field.is_half) close_half(layer, far_field, size, result);
+        return result;
+    }
     const std::span<const std::vector<VertexId>> walls = std::span(layer.borders).last(layer.outer_walls);
     result.borders.resize(layer.borders.size() - walls.size());
     std::vector<VertexId> loop;

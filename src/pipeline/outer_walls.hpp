@@ -15,18 +15,18 @@ namespace lamina::pipeline {
 
 /// A wall on the border of the domain, as the options ask for it.
 struct OuterWallFacts {
-    std::string name;         ///< of its marker: `ground`, `floor` or `ceiling`
+    std::string name;         ///< of its marker: `ground`, `floor`, `ceiling`, `symmetry` or `axis`
     double y = 0;             ///< where it lies
     OuterWallKind kind{};     ///< how the flow meets it
     double first_height = 0;  ///< of its layers, in units of the input; 0: it has none
 };
 
-/// Returns the walls of this far field, the lower one first. Those that are no slip walls have layers, unless layers
+/// Returns the walls of this far field, the lower one first. A line of symmetry is one of them unless it cuts bodies. Those that are no slip walls have layers, unless layers
 /// are disabled, with a first height of their own or that of `growth`. Throws OptionError for a y+ without a Reynolds
 /// number, and where a height contradicts the thickness.
 std::vector<OuterWallFacts> outer_wall_facts(const decoupling::FarField& far_field, const FarFieldOptions& options,
-                                             const LayerOptions& layer, const ReferenceConditions& conditions,
-                                             const layers::LayerGrowth& growth);
+                                             const Geometry& geometry, const LayerOptions& layer,
+                                             const ReferenceConditions& conditions, const layers::LayerGrowth& growth);
 
 /// Returns these walls with vertices at distances that follow the size field.
 std::vector<layers::OuterWall> divide_outer_walls(std::span<const OuterWallFacts> walls,
@@ -37,10 +37,14 @@ struct RegionBorders {
     std::vector<Point> points;                   ///< those of the layer, then those on the sides of the domain
     std::vector<std::vector<VertexId>> borders;  ///< as decoupling::decouple() takes them
     std::vector<Segment> far_field;  ///< edges of the sides, beside the layer and beyond, the mesh on the left
+    std::vector<Segment> symmetry;   ///< likewise those of a line of symmetry that cuts bodies
 };
 
+/// Returns the name of the marker on a line of symmetry.
+const char* symmetry_name(const FarFieldOptions& options);
+
 /// Closes the border of the domain: sides without walls are divided by the size field, from the ends of one wall to
-/// those of the other or to the corners of the far field.
+/// those of the other or to the corners of the far field. So is a line of symmetry between the bodies that it cuts.
 RegionBorders close_domain(const layers::Layer& layer, const decoupling::FarField& far_field, const SizeField& size);
 
 }  // namespace lamina::pipeline

@@ -90,7 +90,10 @@ PreparedWalls prepare_walls(const Geometry& given, const CaseOptions& options, c
 }
 
 /// Runs all stages on a geometry.
-MadeMesh run(const Geometry& given, CaseOptions options, MeshDriver& driver, StageClock& clock) {
+MadeMesh run(const Geometry& whole, CaseOptions options, MeshDriver& driver, StageClock& clock) {
+    const std::optional<double> symmetry = options.far_field.symmetry;
+    const Geometry given = symmetry ? cut_at_symmetry(whole, *symmetry) : whole;
+    if (symmetry) options.layer.wake_layers = false;
     const ReferenceConditions conditions = reference_conditions(options.conditions, reference_box(given));
     options.sizing = sizes_in_tunnel(std::move(options.sizing), options.far_field, conditions.chord, options.fineness);
     const WorkBudget budget{options.limits, driver.cost()};
@@ -147,7 +150,9 @@ MadeMesh run_on_inputs(const std::vector<std::string>& inputs, const CaseOptions
     Geometry geometry;
     const auto read = [&](StageClock& clock) -> const Geometry& {
         clock.begin("geometry");
-        geometry = read_geometry(inputs, options.geometry);
+        GeometryOptions given = options.geometry;
+        if (options.far_field.symmetry) given.close = true;  // half a section without its chord
+        geometry = read_geometry(inputs, given);
         clock.end(&StageSeconds::geometry);
         return geometry;
     };

@@ -11,6 +11,7 @@
 
 #include <lamina/error.hpp>
 
+#include "geometry/symmetry.hpp"
 #include "surface/clearance.hpp"
 #include "surface/corners.hpp"
 #include "surface/crossings.hpp"
@@ -168,11 +169,34 @@ void straighten_crossing(Geometry& geometry, std::vector<Plan>& plans, const Geo
     }
 }
 
+/// Returns the limits with the spacings of walls above a line of symmetry mirrored to the images below.
+SpacingLimits mirrored_limits(SpacingLimits limits, const Geometry& geometry) {
+    if (!geometry.symmetry) return limits;
+    const double y = *geometry.symmetry;
+    const auto is_mirrored = [&](const geometry::WallSpacing& wall) {
+        return geometry.elements[wall.element].is_mirrored;
+    };
+    std::erase_if(limits.walls, [&](const geometry::WallSpacing& wall) {
+        return is_mirrored(wall) && midpoint(wall.a, wall.b).y < y;
+    });
+    const std::size_t n = limits.walls.size();
+    for (std::size_t i = 0; i < n; ++i) {
+        geometry::WallSpacing wall = limits.walls[i];
+        if (!is_mirrored(wall)) continue;
+        std::swap(wall.a, wall.b);
+        wall.a.y = 2 * y - wall.a.y;
+        wall.b.y = 2 * y - wall.b.y;
+        limits.walls.push_back(wall);
+    }
+    return limits;
+}
+
 }  // namespace
 
-Geometry prepare_within(Geometry given, const SurfaceOptions& options, const SpacingLimits& limits,
+Geometry prepare_within(Geometry given, const SurfaceOptions& options, const SpacingLimits& given_limits,
                         std::optional<double> chord) {
     validate(options);
+    const SpacingLimits limits = mirrored_limits(given_limits, given);
     for (Element& e : given.elements) e.features.corners = find_corners(e);
     if (options.smooth) {
         Geometry smoothed = given;
@@ -208,6 +232,7 @@ Geometry prepare_within(Geometry given, const SurfaceOptions& options, const Spa
     straighten_crossing(result, plans, given, request);
     restore_crossing(result, given);
     if (options.exact_points) require_number_of_points(result, *options.points);
+    geometry::mirror_again(result);
     for (Element& e : result.elements) find_trailing_edge(e.points, e.features);
     return result;
 }

@@ -42,7 +42,8 @@ std::vector<std::vector<FrontCorner>> front_corners(const Rays& rays) {
             }
             const std::size_t next = i + 1 < end ? i + 1 : begin;
             const bool one_corner =
-                counts[i] == 0 && counts[next] == 0 && set.lines[i].origin == set.lines[next].origin;
+                counts[i] == 0 && counts[next] == 0 && set.lines[i].origin == set.lines[next].origin &&
+                i + 1 != rays.domain_end(e);
             if (!one_corner) fronts[e].push_back({i, counts[i]});
             if (counts[i] > 0 || counts[next] > 0) continue;
             for (std::size_t k = 1; k <= set.lines[i].corner_after.size(); ++k) fronts[e].push_back({i, 0, k});
@@ -52,7 +53,10 @@ std::vector<std::vector<FrontCorner>> front_corners(const Rays& rays) {
 }
 
 std::size_t corners_in_domain(const Rays& rays, std::size_t element, std::span<const FrontCorner> corners) {
-    return rays.is_outer(element) ? rays.domain_end(element) - rays.set.begin[element] : corners.size();
+    const auto hidden = std::find_if(corners.begin(), corners.end(), [&](const FrontCorner& corner) {
+        return corner.ray >= rays.domain_end(element);
+    });
+    return static_cast<std::size_t>(hidden - corners.begin());
 }
 
 Point place_of(const LayeredRays& rays, const FrontCorner& corner) {
@@ -77,7 +81,7 @@ LayerEdges layer_edges(const Layer& layer) {
     LayerEdges result;
     std::vector<Segment> wall_edges, border_edges;  // both counter-clockwise
     for (const auto& wall : layer.walls) {
-        const bool open = layer.is_outer(result.walls.size());
+        const bool open = layer.is_open(result.walls.size());
         auto& clockwise = result.walls.emplace_back();
         for (std::size_t i = 0; i + open < wall.size(); ++i) {
             const VertexId a = wall[i], b = wall[i + 1 < wall.size() ? i + 1 : 0];
@@ -87,17 +91,18 @@ LayerEdges layer_edges(const Layer& layer) {
     }
     for (std::size_t e = 0; e < layer.borders.size(); ++e) {
         const std::vector<VertexId>& border = layer.borders[e];
-        for (std::size_t i = 0; i + layer.is_outer(e) < border.size(); ++i)
+        for (std::size_t i = 0; i + layer.is_open(e) < border.size(); ++i)
             border_edges.push_back({border[i], border[i + 1 < border.size() ? i + 1 : 0]});
     }
     for (std::size_t e = 0; e < layer.rays.size(); ++e) {
-        if (!layer.is_outer(e) || layer.rays[e].empty()) continue;
+        if (!layer.is_open(e) || layer.rays[e].empty()) continue;
+        std::vector<Segment>& ends = layer.is_outer(e) ? result.sides : result.symmetry;
         const Ray &first = layer.rays[e].front(), &last = layer.rays[e].back();
-        for (std::uint32_t n = 1; n <= first.layers; ++n)
-            result.sides.push_back({first.vertex(n - 1), first.vertex(n)});
-        for (std::uint32_t n = 1; n <= last.layers; ++n) result.sides.push_back({last.vertex(n), last.vertex(n - 1)});
+        for (std::uint32_t n = 1; n <= first.layers; ++n) ends.push_back({first.vertex(n - 1), first.vertex(n)});
+        for (std::uint32_t n = 1; n <= last.layers; ++n) ends.push_back({last.vertex(n), last.vertex(n - 1)});
     }
     result.region = result.sides;
+    result.region.insert(result.region.end(), result.symmetry.begin(), result.symmetry.end());
 
     std::sort(wall_edges.begin(), wall_edges.end());
     std::sort(border_edges.begin(), border_edges.end());
@@ -115,7 +120,7 @@ LayerEdges layer_edges(const Layer& layer) {
 std::vector<std::vector<Point>> border_loops(const Layer& layer) {
     std::vector<std::vector<Point>> loops;
     for (const auto& border : layer.borders) {
-        const bool back = layer.is_outer(loops.size());
+        const bool back = layer.is_open(loops.size());
         std::vector<Point>& loop = loops.emplace_back();
         loop.reserve(border.size());
         for (VertexId v : border) loop.push_back(layer.points[v.index()]);
@@ -198,9 +203,9 @@ std::vector<geometry::WallSpacing> wall_spacings(const Rays& rays, const BorderO
             least_requests[e].push_back(corners[e][k].cleft ? 0 : wall_below(rays, corners[e], k).edge);
     const BorderDivision division = divide_fronts(layered, corners, options, least_requests, {});
     std::vector<geometry::WallSpacing> spacings;
-    for (std::size_t e = 0; e < corners.size(); ++e) {
+    for (std::size_t e = 0; e < rays.shown(); ++e) {
         if (!rays.resampled[e]) continue;
-        const std::size_t shown = corners_in_domain(rays, e, corners[e]) - rays.is_outer(e);
+        const std::size_t shown = corners_in_domain(rays, e, corners[e]) - rays.is_open(e);
         for (std::size_t k = 0; k < shown; ++k) {
             if (corners[e][k].cleft || !is_above_wall(rays, corners[e], k)) continue;
             const WallPart wall = wall_below(rays, corners[e], k);

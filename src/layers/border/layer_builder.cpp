@@ -36,6 +36,8 @@ public:
         } else {
             layer_.rays.resize(set_.elements());
         }
+        for (auto* lists : {&layer_.walls, &layer_.borders}) lists->resize(rays_.shown());
+        layer_.rays.resize(rays_.shown());
         assert(layer_.layer_of_point.size() == layer_.points.size());
         return std::move(layer_);
     }
@@ -61,7 +63,8 @@ private:
 
     /// Returns the number of edges of a front in the domain.
     std::size_t edges_in_domain(std::size_t element) const {
-        return corners_in_domain(rays_, element, corners_[element]) - rays_.is_outer(element);
+        const std::size_t corners = corners_in_domain(rays_, element, corners_[element]);
+        return corners > 0 ? corners - rays_.is_open(element) : 0;
     }
 
     const FrontCorner& corner_after(std::size_t element, std::size_t k) const {
@@ -202,7 +205,8 @@ private:
 
     void place_borders() {
         layer_.borders.resize(set_.elements());
-        layer_.outer_walls = rays_.outer_ends.size();
+        layer_.outer_walls = rays_.outer_walls;
+        for (std::size_t e = 0; e < rays_.shown(); ++e) layer_.open.push_back(rays_.is_open(e));
         for (std::size_t e = 0; e < set_.elements(); ++e) {
             std::vector<VertexId>& border = layer_.borders[e];
             const std::size_t corners = corners_in_domain(rays_, e, corners_[e]), edges = edges_in_domain(e);

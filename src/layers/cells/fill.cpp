@@ -16,7 +16,7 @@ namespace lamina::layers {
 // The outer border cut into the stretches between the tips of neighbouring rays.
 
 CellColumns::CellColumns(const Layer& layer, std::size_t element)
-    : rays_(layer.rays[element]), is_open_(layer.is_outer(element)), border_(layer.borders[element]) {
+    : rays_(layer.rays[element]), is_open_(layer.is_open(element)), border_(layer.borders[element]) {
     if (!is_open_) border_.push_back(border_.front());
     for (const LayerCleft& cleft : layer.clefts) {
         if (cleft.element != element) continue;

@@ -157,6 +157,7 @@ void shift_rays_of_corners(const LayerGrowth& growth, RaySet& set) {
         if (before.origin == ray.origin || after.origin == ray.origin) continue;  // a ray of a fan
         const double above = ray.opening * growth.first_height_on(element), along = ray.slant * above;
         ray.shift = shift_at_corner(before, ray, after, along, above);
+        if (ray.on_symmetry) ray.shift.y = 0;
     }
 }
 
