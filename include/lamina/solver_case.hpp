@@ -69,6 +69,9 @@ struct SolverConditions {
     /// Names of the markers of walls that are not bodies, as ground without slip: forces on them do not count.
     std::vector<std::string> outer_walls{};
     std::vector<std::string> moving_walls{};  ///< those of them that move with the free stream
+    /// Whether the mesh is one half of an axisymmetric flow about y = 0, whose marker `axis` has the kind symmetry. Forces
+    /// then are those of the whole body, over the area of its largest circle.
+    bool axisymmetric = false;
 };
 
 /// Returns WarningCode::unsuited_to_solver where most cells of the layer are triangles, on which simpleFoam diverges.

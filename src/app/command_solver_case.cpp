@@ -55,6 +55,7 @@ SolverConditions solver_conditions(const MeshResult& result, const CaseOptions& 
         if (!far_field.ground) conditions.outer_walls.push_back("floor");
         conditions.outer_walls.push_back("ceiling");
     }
+    conditions.axisymmetric = far_field.axisymmetric;
     return conditions;
 }
 

@@ -153,14 +153,16 @@ Words openfoam_words(const CaseFlow& flow) {
     words["MOVING_WALLS"] = moving_patches(flow.moving_walls);
     words["FAR_FIELDS"] = fmt::format("{}", fmt::join(flow.far_fields, " "));
     words["WALLS"] = fmt::format("{}", fmt::join(flow.walls, " "));
-    words["SYMMETRIES"] = symmetry_patches(flow.symmetries);
+    words["SYMMETRIES"] = flow.axisymmetric ? "" : symmetry_patches(flow.symmetries);
+    words["ENDS"] = flow.axisymmetric ? "\"(z0|z1)\"" : "frontAndBack";
+    words["ENDS_TYPE"] = flow.axisymmetric ? "wedge" : "empty";
     words["VORTEX"] = flow.symmetries.empty() && flow.outer_walls.empty() ? "yes" : "no";
     words["WALL_SURFACES"] = wall_surfaces(flow.walls);
     words["VELOCITY_VECTOR"] = vector(u, v);
     words["VELOCITY"] = number(flow.velocity);
     words["NU"] = number(flow.viscosity);
     words["CHORD"] = number(flow.chord);
-    words["AREA"] = number(flow.chord * io::openfoam_span);
+    words["AREA"] = number(flow.area * (flow.axisymmetric ? io::foam_wedge_deg / 360 : io::openfoam_span));
     // At each step lift swings by 0.2 per degree before it settles.
     constexpr double step_of_angles = 1;
     words["ANGLES"] = fmt::format("{}", fmt::join(angles_to(flow.alpha_deg, step_of_angles), " "));

@@ -131,6 +131,16 @@ Point foremost_wall_vertex(const Mesh& mesh, const std::vector<std::string>& wal
     return foremost;
 }
 
+/// Returns the area of the largest circle of these walls about y = 0.
+double largest_circle(const Mesh& mesh, const std::vector<std::string>& walls) {
+    double radius = 0;
+    for (const Marker& marker : mesh.markers) {
+        if (!is_one_of(marker.name, walls)) continue;
+        for (const Segment& edge : marker.edges) radius = std::max(radius, mesh.points[edge.a.index()].y);
+    }
+    return core::pi * radius * radius;
+}
+
 /// Returns the steps of a case in time: in one of them the stream crosses no more than one edge as long as the shortest
 /// quarter of the triangles outside the layer has them, each by its shortest edge. These are the triangles of the wake.
 TimeSteps steps_in_time(const Mesh& mesh, const CaseFlow& flow) {
@@ -173,9 +183,12 @@ CaseFlow case_flow(FlowSolver solver, const Mesh& mesh, const SolverConditions& 
     flow.symmetries = names_of_markers(mesh, MarkerKind::symmetry);
     flow.outer_walls = conditions.outer_walls;
     flow.moving_walls = conditions.moving_walls;
+    flow.axisymmetric = conditions.axisymmetric;
+    flow.area = chord;
     std::erase_if(flow.walls, [&](const std::string& name) { return is_one_of(name, flow.outer_walls); });
     if (flow.walls.empty()) throw MeshError("a case needs a mesh with a marker that is a wall");
     if (flow.far_fields.empty()) throw MeshError("a case needs a mesh with a marker that is a far field");
+    if (flow.axisymmetric) flow.area = largest_circle(mesh, flow.walls);
     if (options.unsteady) flow.time = steps_in_time(mesh, flow);
     flow.moment_point =
         conditions.moment_point.value_or(foremost_wall_vertex(mesh, flow.walls) + Point{0.25 * chord, 0});

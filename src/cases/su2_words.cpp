@@ -109,6 +109,8 @@ Words su2_words(const CaseFlow& flow) {
     words["ALPHA"] = fmt::format("{}", flow.alpha_deg);
     words["REYNOLDS"] = fmt::format("{}", flow.reynolds);
     words["CHORD"] = fmt::format("{}", flow.chord);
+    words["AREA"] = fmt::format("{}", flow.area);
+    words["AXISYMMETRY"] = flow.axisymmetric ? "AXISYMMETRIC= YES" : "";
     words["MOMENT_X"] = fmt::format("{}", flow.moment_point.x);
     words["MOMENT_Y"] = fmt::format("{}", flow.moment_point.y);
     // SU2 goes from 10 to 15 degrees at once, too; the lift swings by half of itself then.

@@ -37,6 +37,8 @@ struct CaseFlow {
     std::vector<std::string> symmetries;    ///< likewise, if any
     std::vector<std::string> outer_walls;   ///< SolverConditions::outer_walls
     std::vector<std::string> moving_walls;  ///< SolverConditions::moving_walls
+    bool axisymmetric = false;              ///< SolverConditions::axisymmetric
+    double area = 1;                        ///< that coefficients count, for a span of 1 or for a body of revolution
 
     /// Returns the names of all walls, bodies first.
     std::vector<std::string> all_walls() const {

@@ -142,7 +142,7 @@ OptionTable<FarFieldOptions> option_rows() {
                 "line of symmetry y = Y, in units of the input, that cuts bodies and domain: what is above is kept",
                 numbers_from_to(-1e6, 1e6), member_at(&FarFieldOptions::symmetry))
         .excludes = {"far-field-shape", "far-field-outline", "tunnel", "ground"};
-    table.flag("axisymmetric", "that line is the axis of bodies of revolution", true,
+    table.flag("axisymmetric", "the line of symmetry, y = 0, is the axis of bodies of revolution", true,
                member_at(&FarFieldOptions::axisymmetric));
     table.spec("ground-layers", "H", "the same on ground without slip, as tunnel-layers", parse_outer_layers,
                outer_layers_text, member_at(&FarFieldOptions::ground_layers));
@@ -179,8 +179,8 @@ void validate(const FarFieldOptions& options) {
                           "needs the far field to be a box");
     if (options.symmetry && (options.tunnel || options.ground))
         throw OptionError("symmetry", "is the border below, where no ground or tunnel can be");
-    if (options.axisymmetric && !options.symmetry)
-        throw OptionError("axisymmetric", "needs symmetry, which is its axis");
+    if (options.axisymmetric && options.symmetry != 0.0)
+        throw OptionError("axisymmetric", "needs symmetry 0, the axis of flow solvers: shift the configuration");
     if (options.tunnel_upstream.has_value() != options.tunnel_downstream.has_value())
         throw OptionError("tunnel", "goes on upstream and downstream by lengths that are both given, or neither");
     if (options.tunnel_walls == OuterWallKind::moving) throw OptionError("tunnel_walls", "no wall of a tunnel moves");

@@ -9,6 +9,10 @@
 // for each cell but those at the last plane ends with the face to the next plane. The patches follow: the faces of each
 // marker, from plane to plane in the order of its edges, then the back of all cells at the first plane, then the front
 // of those at the last one. For plane flow both are one patch, `frontAndBack`, of type empty.
+//
+// A mesh with a line of symmetry called `axis` becomes a wedge of 2.5 degrees about y = 0: both planes are turned about
+// it by half of that, and are patches of type wedge. Points on the axis are in both planes, sides with one end on it are
+// triangles, and those on it are no faces.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,6 +26,7 @@
 #include <lamina/io.hpp>
 
 #include "core/atomic_file.hpp"
+#include "core/reproducible_math.hpp"
 #include "io/extrusion.hpp"
 #include "io/formats.hpp"
 #include "io/mesh_faces.hpp"
@@ -62,17 +67,30 @@ const char* patch_type(MarkerKind kind) {
     return "patch";
 }
 
+/// Returns the marker on the axis of a mesh round one, or null.
+const Marker* axis_of(const MeshView& mesh) {
+    const auto axis = std::find_if(mesh.markers.begin(), mesh.markers.end(), [](const Marker& marker) {
+        return marker.kind == MarkerKind::symmetry && marker.name == foam_axis;
+    });
+    return axis == mesh.markers.end() ? nullptr : &*axis;
+}
+
 class PolyMeshWriter {
 public:
     PolyMeshWriter(const MeshView& mesh, const fs::path& file, const Extrusion& extrusion)
-        : mesh_(mesh), file_(file), extrusion_(extrusion), faces_(find_faces(mesh, file, "OpenFOAM")) {
+        : mesh_(mesh),
+          file_(file),
+          extrusion_(extrusion),
+          faces_(find_faces(mesh, file, "OpenFOAM")),
+          axis_(axis_of(mesh)) {
         if (extrusion.cells > 1) order_faces();
+        if (axis_ != nullptr) collapse_axis();
     }
 
     void write(const fs::path& folder) const {
-        const std::string note = fmt::format(
-            "    note        \"nPoints:{}  nCells:{}  nFaces:{}  nInternalFaces:{}\";\n",
-            extrusion_.planes() * mesh_.points.size(), extrusion_.cells * cells(), all_faces(), internal_faces());
+        const std::string note =
+            fmt::format("    note        \"nPoints:{}  nCells:{}  nFaces:{}  nInternalFaces:{}\";\n", points(),
+                        extrusion_.cells * cells(), all_faces(), internal_faces());
         write_part(folder, "points", "vectorField", "", [&](std::ostream& out) { write_points(out); });
         write_part(folder, "faces", "faceList", "", [&](std::ostream& out) { write_faces(out); });
         write_part(folder, "owner", "labelList", note, [&](std::ostream& out) { write_owners(out); });
@@ -90,7 +108,35 @@ private:
 
     std::size_t cells() const { return faces_.edges.cells(); }
     std::size_t internal_faces() const { return extrusion_.cells * (faces_.internal + cells()) - cells(); }
-    std::size_t side_patches() const { return extrusion_.cells * (faces_.faces.size() - faces_.internal); }
+    std::size_t side_patches() const {
+        const std::size_t on_axis = axis_ == nullptr ? 0 : axis_->edges.size();
+        return extrusion_.cells * (faces_.faces.size() - faces_.internal - on_axis);
+    }
+    std::size_t points() const {
+        return axis_ == nullptr ? extrusion_.planes() * mesh_.points.size() : mesh_.points.size() + off_axis_.size();
+    }
+    /// Returns the node of a point in a plane.
+    std::size_t node(VertexId point, std::size_t plane) const {
+        if (axis_ == nullptr) return plane * mesh_.points.size() + point.index();
+        return plane == 0 ? point.index() : turned_[point.index()];
+    }
+
+    /// Numbers the nodes of the second plane of a wedge. Throws UsageError where the axis is not y = 0, or a point is
+    /// below it.
+    void collapse_axis() {
+        if (extrusion_.cells > 1 || extrusion_.periodic || extrusion_.length != openfoam_span)
+            throw UsageError(file_.string() + ": a mesh with a marker 'axis' becomes a wedge, which has no span");
+        std::vector<char> on_axis(mesh_.points.size(), 0);
+        for (const Segment& edge : axis_->edges) on_axis[edge.a.index()] = on_axis[edge.b.index()] = 1;
+        turned_.resize(mesh_.points.size());
+        for (std::size_t i = 0; i < mesh_.points.size(); ++i) {
+            const double y = mesh_.points[i].y;
+            if (on_axis[i] ? y != 0 : !(y > 0))
+                throw UsageError(file_.string() + ": a marker 'axis' must lie on y = 0, and all other points above it");
+            turned_[i] = on_axis[i] ? i : mesh_.points.size() + off_axis_.size();
+            if (!on_axis[i]) off_axis_.push_back(i);
+        }
+    }
     std::size_t all_faces() const { return internal_faces() + side_patches() + 2 * cells(); }
 
     /// Orders the internal sides between two planes and the cells in the upper one by their owners.
@@ -121,6 +167,10 @@ private:
         std::size_t first = faces_.internal;
         for (const Marker& marker : mesh_.markers) {
             const std::size_t edges = marker.edges.size();
+            if (&marker == axis_) {
+                first += edges;
+                continue;
+            }
             if (face < extrusion_.cells * edges) return {true, first + face % edges, face / edges};
             face -= extrusion_.cells * edges;
             first += edges;
@@ -146,6 +196,15 @@ private:
 
     void write_points(std::ostream& out) const {
         const std::size_t n = mesh_.points.size();
+        if (axis_ != nullptr) {
+            const double turn = core::radians(foam_wedge_deg / 2);
+            const double c = core::cos_reproducible(turn), s = core::sin_reproducible(turn);
+            write_list(out, points(), [&](LineText& line, std::size_t i) {
+                const Point p = mesh_.points[i < n ? i : off_axis_[i - n]];
+                line.tight("(") << p.x << c * p.y << fmt::format("{})", p.y == 0 ? 0 : (i < n ? -s : s) * p.y);
+            });
+            return;
+        }
         std::vector<std::string> heights;
         for (std::size_t k = 0; k < extrusion_.planes(); ++k)
             heights.push_back(fmt::format("{})", extrusion_.height(k)));
@@ -165,10 +224,12 @@ private:
         });
     }
     void put_side(LineText& line, const FoamFace& face) const {
-        const std::size_t n = mesh_.points.size(), first = face.plane * n;
-        const std::size_t a = first + faces_.origin(face.number).index(),
-                          b = first + faces_.target(face.number).index();
-        line.tight("4(") << a << b << n + b << n + a;
+        const VertexId a = faces_.origin(face.number), b = faces_.target(face.number);
+        const std::size_t upper_a = node(a, face.plane + 1), upper_b = node(b, face.plane + 1);
+        const bool has_a = upper_a != node(a, face.plane), has_b = upper_b != node(b, face.plane);
+        line.tight(has_a && has_b ? "4(" : "3(") << node(a, face.plane) << node(b, face.plane);
+        if (has_b) line << upper_b;
+        if (has_a) line << upper_a;
     }
     /// Puts a face whose normal points down. Where it is periodic, it begins with the same corner as the one above.
     void put_back(LineText& line, std::size_t cell) const {
@@ -180,7 +241,7 @@ private:
     void put_front(LineText& line, const FoamFace& face) const {
         line.tight(faces_.edges.corners(face.number) == 3 ? "3(" : "4(");
         for (std::size_t k = 0; k < faces_.edges.corners(face.number); ++k)
-            line << face.plane * mesh_.points.size() + faces_.edges.corner(face.number, k).index();
+            line << node(faces_.edges.corner(face.number, k), face.plane);
     }
     void write_owners(std::ostream& out) const {
         write_list(out, all_faces(), [&](LineText& line, std::size_t f) { line << owner(face_at(f)); });
@@ -199,10 +260,16 @@ private:
                 name, type, faces, start, more);
             start += faces;
         };
-        out << mesh_.markers.size() + (extrusion_.is_plane_flow() ? 1 : 2) << "\n(\n";
+        out << mesh_.markers.size() + (axis_ == nullptr && extrusion_.is_plane_flow() ? 1
+                                       : axis_ == nullptr                             ? 2
+                                                                                      : 1)
+            << "\n(\n";
         for (const Marker& marker : mesh_.markers)
-            write_patch(marker.name, patch_type(marker.kind), extrusion_.cells * marker.edges.size());
-        if (extrusion_.is_plane_flow()) {
+            if (&marker != axis_)
+                write_patch(marker.name, patch_type(marker.kind), extrusion_.cells * marker.edges.size());
+        if (axis_ != nullptr) {
+            for (const char* plane : {first_plane, last_plane}) write_patch(plane, "wedge", cells());
+        } else if (extrusion_.is_plane_flow()) {
             write_patch(front_and_back, "empty", 2 * cells());
         } else {
             const auto other = [&](const char* plane) {
@@ -220,7 +287,10 @@ private:
     const Extrusion& extrusion_;
     MeshFaces faces_;  ///< those of the plane mesh
     std::vector<std::uint32_t>
-        order_;  ///< internal sides, and behind their number cells, for more than one cell across
+        order_;           ///< internal sides, and behind their number cells, for more than one cell across
+    const Marker* axis_;  ///< null where the mesh becomes no wedge
+    std::vector<std::size_t> off_axis_{};  ///< the points beside the axis, of a wedge
+    std::vector<std::size_t> turned_{};    ///< per point: its node in the second plane of a wedge
 };
 
 /// Writes the part of each cell of so many copies of the mesh.

@@ -102,6 +102,24 @@ bool same_points(const Geometry& a, const Geometry& b) {
                       [](const Element& first, const Element& second) { return first.points == second.points; });
 }
 
+/// Returns sizes for the borders of bodies above a line of symmetry that cuts others: edges are no longer than the gap
+/// below them, which ends at the line.
+std::vector<SizeSource> gaps_above_symmetry(const FittedLayer& fitted, std::span<const std::vector<Point>> fronts) {
+    constexpr double edge_over_gap = 0.8;
+    std::vector<SizeSource> sources;
+    if (!fitted.far_field.is_half || !fitted.outer_walls.empty()) return sources;
+    for (std::size_t e = 0; e < fitted.geometry.elements.size(); ++e) {
+        if (fitted.geometry.elements[e].is_mirrored) continue;
+        const std::vector<Point>& front = fronts[e];
+        for (std::size_t i = 0; i < front.size(); ++i) {
+            const Point a = front[i], b = front[(i + 1) % front.size()];
+            const double size = edge_over_gap * (std::min(a.y, b.y) - fitted.far_field.floor);
+            if (size < distance(a, b)) sources.push_back({.a = a, .b = b, .size = size});
+        }
+    }
+    return sources;
+}
+
 /// Requests the sizes that the options, the fronts of the rays and the wakes behind their layers ask for. Where a background
 /// mesh decides on sizes, wakes request them of borders alone.
 void request_sizes(SizingOptions options, FittedLayer& fitted) {
@@ -121,8 +139,11 @@ void request_sizes(SizingOptions options, FittedLayer& fitted) {
     const bool decided = decides_on_sizes(options);
     if (!decided) options.sources.insert(options.sources.end(), along_wakes.begin(), along_wakes.end());
     std::vector<SizeSource>& at_borders = fitted.requests.at_borders;
-    fitted.requests = sizing::gather_size_requests(options, sized_bodies(fitted.geometry, fitted.conditions),
-                                                   layers::fronts(rays), fitted.far_field.box());
+    const std::vector<std::vector<Point>> fronts = layers::fronts(rays);
+    fitted.requests = sizing::gather_size_requests(options, sized_bodies(fitted.geometry, fitted.conditions), fronts,
+                                                   fitted.far_field.box());
+    const std::vector<SizeSource> above_symmetry = gaps_above_symmetry(fitted, fronts);
+    at_borders.insert(at_borders.end(), above_symmetry.begin(), above_symmetry.end());
     if (decided) at_borders.insert(at_borders.end(), along_wakes.begin(), along_wakes.end());
     at_borders.insert(at_borders.end(), fitted.short_edges.begin(), fitted.short_edges.end());
 }

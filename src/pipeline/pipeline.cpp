@@ -92,7 +92,8 @@ PreparedWalls prepare_walls(const Geometry& given, const CaseOptions& options, c
 /// Runs all stages on a geometry.
 MadeMesh run(const Geometry& whole, CaseOptions options, MeshDriver& driver, StageClock& clock) {
     const std::optional<double> symmetry = options.far_field.symmetry;
-    const Geometry given = symmetry ? cut_at_symmetry(whole, *symmetry) : whole;
+    const Geometry cut = symmetry ? cut_at_symmetry(whole, *symmetry) : Geometry{};
+    const Geometry& given = symmetry ? cut : whole;
     if (symmetry) options.layer.wake_layers = false;
     const ReferenceConditions conditions = reference_conditions(options.conditions, reference_box(given));
     options.sizing = sizes_in_tunnel(std::move(options.sizing), options.far_field, conditions.chord, options.fineness);
