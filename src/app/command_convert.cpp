@@ -77,7 +77,7 @@ void add_convert_command(CLI::App& app) {
         ->type_name("NAME")
         ->allow_extra_args(false);
     command
-        ->add_option("--symmetry", arguments->symmetries,
+        ->add_option("--symmetry-marker", arguments->symmetries,
                      "set the kind of this marker to symmetry; may be given several times")
         ->type_name("NAME")
         ->allow_extra_args(false);

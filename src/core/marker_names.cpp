@@ -94,7 +94,7 @@ MarkerKind kind_of_name(std::string_view name) {
     letters = lower_case(std::move(letters));
     if (letters == "farfield" || letters == "far" || letters == "inlet" || letters == "outlet")
         return MarkerKind::far_field;
-    if (letters == "symmetry" || letters == "symmetryplane") return MarkerKind::symmetry;
+    if (letters == "symmetry" || letters == "symmetryplane" || letters == "axis") return MarkerKind::symmetry;
     if (letters == "wall" || letters == "airfoil") return MarkerKind::wall;
     return MarkerKind::other;
 }

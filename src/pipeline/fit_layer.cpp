@@ -114,6 +114,9 @@ std::vector<SizeSource> gaps_above_symmetry(const FittedLayer& fitted, std::span
         for (std::size_t i = 0; i < front.size(); ++i) {
             const Point a = front[i], b = front[(i + 1) % front.size()];
             const double size = edge_over_gap * (std::min(a.y, b.y) - fitted.far_field.floor);
+            if (!(size > 0))
+                throw MeshError(
+                    fmt::format("the layer of {} reaches the line of symmetry", fitted.geometry.elements[e].name), a);
             if (size < distance(a, b)) sources.push_back({.a = a, .b = b, .size = size});
         }
     }

@@ -65,6 +65,18 @@ bool is_simple(const Geometry& geometry) {
     }
 }
 
+/// Restores the given points of elements above a line of symmetry whose new outlines reach it.
+void restore_below_symmetry(Geometry& geometry, const Geometry& given) {
+    if (!geometry.symmetry) return;
+    for (std::size_t e = 0; e < geometry.elements.size(); ++e) {
+        const Element& element = geometry.elements[e];
+        const bool is_above = std::all_of(element.points.begin(), element.points.end(),
+                                          [&](Point p) { return p.y > *geometry.symmetry; });
+        if (!is_above && !element.is_mirrored)
+            restore(geometry, e, given, "its smooth curve would cross the line of symmetry");
+    }
+}
+
 /// Restores the given points of elements whose new outlines cross themselves or each other.
 void restore_crossing(Geometry& geometry, const Geometry& given) {
     if (is_simple(geometry)) return;
@@ -230,6 +242,7 @@ Geometry prepare_within(Geometry given, const SurfaceOptions& options, const Spa
         }
     }
     straighten_crossing(result, plans, given, request);
+    restore_below_symmetry(result, given);
     restore_crossing(result, given);
     if (options.exact_points) require_number_of_points(result, *options.points);
     geometry::mirror_again(result);

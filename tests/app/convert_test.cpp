@@ -55,7 +55,7 @@ TEST(Convert, SetsKinds) {
     ASSERT_EQ(run_lamina(folder, {"convert", "m.su2", "m.vtu", "--wall", "body", "--far", "outside"}).exit_code, 0);
     EXPECT_EQ(read_mesh(folder / "m.vtu").markers[0].kind, MarkerKind::wall);
     EXPECT_EQ(read_mesh(folder / "m.vtu").markers[1].kind, MarkerKind::far_field);
-    ASSERT_EQ(run_lamina(folder, {"convert", "m.su2", "m.vtu", "--symmetry", "outside"}).exit_code, 0);
+    ASSERT_EQ(run_lamina(folder, {"convert", "m.su2", "m.vtu", "--symmetry-marker", "outside"}).exit_code, 0);
     EXPECT_EQ(read_mesh(folder / "m.vtu").markers[1].kind, MarkerKind::symmetry);
 }
 

@@ -71,6 +71,33 @@ std::vector<std::size_t> labels(const std::string& text) {
     return values;
 }
 
+TEST(OpenFoam, AMeshWithAnAxisBecomesAWedge) {
+    // A triangle with an edge on the axis, one with a corner there, and a square beside it.
+    Mesh mesh;
+    mesh.points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 2}, {1, 2}};
+    mesh.triangles = {{{VertexId(0), VertexId(1), VertexId(2)}}, {{VertexId(0), VertexId(2), VertexId(3)}}};
+    mesh.quads = {{{VertexId(3), VertexId(2), VertexId(5), VertexId(4)}}};
+    const auto edge = [](int a, int b) { return Segment{VertexId(a), VertexId(b)}; };
+    mesh.markers = {{"axis", MarkerKind::symmetry, {edge(0, 1)}},
+                    {"farfield", MarkerKind::far_field, {edge(1, 2), edge(2, 5), edge(5, 4), edge(4, 3), edge(3, 0)}}};
+    const TemporaryFolder folder;
+    write_mesh(mesh, folder / "case", {.format = "openfoam"});
+    const auto read = [&](const std::string& name) { return folder.read("case/constant/polyMesh/" + name); };
+    EXPECT_NE(read("points").find("\n10\n(\n"), std::string::npos);
+    EXPECT_NE(read("points").find(" -0.0218"), std::string::npos);
+    EXPECT_NE(read("points").find(" 0.0218"), std::string::npos);
+    EXPECT_EQ(read("faces"), header("faceList", "faces") +
+                                 "13\n(\n3(2 0 6)\n4(2 3 7 6)\n"
+                                 "3(1 2 6)\n4(2 5 9 6)\n4(5 4 8 9)\n4(4 3 7 8)\n3(3 0 7)\n"
+                                 "3(2 1 0)\n3(3 2 0)\n4(4 5 2 3)\n3(0 1 6)\n3(0 6 7)\n4(7 6 9 8)\n)\n");
+    EXPECT_NE(read("boundary").find("3\n(\n    farfield\n"), std::string::npos);
+    EXPECT_NE(read("boundary").find("wedge"), std::string::npos);
+    EXPECT_EQ(read("boundary").find("axis"), std::string::npos);
+    EXPECT_THROW(write_mesh(mesh, folder / "deep", {.format = "openfoam", .span = 2}), UsageError);
+    mesh.points[1].y = -0.1;
+    EXPECT_THROW(write_mesh(mesh, folder / "below", {.format = "openfoam"}), UsageError);
+}
+
 TEST(OpenFoam, FacesAreInUpperTriangularOrder) {
     const TemporaryFolder folder;
     for (const Mesh& mesh : {annulus({.around = 100, .rings = 60}), shuffled(annulus({.quads_in_layer = true}), 5)}) {
