@@ -8,6 +8,7 @@
 #include <ostream>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <lamina/io.hpp>
@@ -139,6 +140,8 @@ bool holds_fluent_mesh(const std::filesystem::path& file);
 
 /// The patch for the two sides of meshes that are one cell thick.
 inline constexpr const char* front_and_back = "frontAndBack";
+/// The marker of kind symmetry that lies on the axis y = 0 of an axisymmetric flow.
+inline constexpr std::string_view axis_name = "axis";
 void check_openfoam_writable(const std::filesystem::path& file);
 /// Writes the folder and, for more than one part, the file of the parts beside it.
 void write_openfoam(const MeshView& mesh, const std::filesystem::path& file, const Extrusion& extrusion,

@@ -5,8 +5,7 @@ namespace lamina::io {
 
 /// The thickness of meshes in space, in units of the mesh, unless a span is given.
 inline constexpr double openfoam_span = 1;
-/// The marker of kind symmetry whose mesh becomes a wedge about y = 0, and the angle of the wedge in degrees.
-inline constexpr const char* foam_axis = "axis";
+/// The angle of the wedge in degrees that a mesh round an axis becomes.
 inline constexpr double foam_wedge_deg = 2.5;
 
 }  // namespace lamina::io

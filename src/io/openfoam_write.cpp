@@ -70,7 +70,7 @@ const char* patch_type(MarkerKind kind) {
 /// Returns the marker on the axis of a mesh round one, or null.
 const Marker* axis_of(const MeshView& mesh) {
     const auto axis = std::find_if(mesh.markers.begin(), mesh.markers.end(), [](const Marker& marker) {
-        return marker.kind == MarkerKind::symmetry && marker.name == foam_axis;
+        return marker.kind == MarkerKind::symmetry && marker.name == axis_name;
     });
     return axis == mesh.markers.end() ? nullptr : &*axis;
 }

@@ -129,13 +129,13 @@ struct Layer {
     std::size_t outer_walls = 0;
 
     /// One per element: whether its wall and its border lead from one place on the border of the domain to another, as
-    /// those of outer walls do, and of bodies that a line of symmetry cuts.
+    /// those of outer walls do, and of bodies that a line of symmetry cuts. Empty: none does.
     std::vector<char> open{};
 
     /// Returns whether an element is an outer wall.
     bool is_outer(std::size_t element) const { return element + outer_walls >= borders.size(); }
     /// Returns whether wall and border of an element are open.
-    bool is_open(std::size_t element) const { return open[element] != 0; }
+    bool is_open(std::size_t element) const { return !open.empty() && open[element] != 0; }
 };
 
 /// Returns the edges of the walls and borders of a layer: Layer::edges.

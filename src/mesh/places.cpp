@@ -28,7 +28,7 @@ Box square_round(Point center, double side) {
 
 /// The points of walls, wall by wall.
 struct WallPoints {
-    std::vector<std::vector<Point>> bodies;  ///< walls that are closed
+    std::vector<std::vector<Point>> bodies;  ///< walls that are closed, or end on a line of symmetry
     std::vector<std::vector<Point>> open;    ///< walls with ends, as ground has
 };
 
@@ -37,6 +37,8 @@ WallPoints points_of_walls(const Mesh& mesh) {
     walls.points = mesh.points;
     std::vector<bool> ends_edge(mesh.points.size(), false);
     for (const Marker& marker : mesh.markers) {
+        if (marker.kind == MarkerKind::symmetry)
+            for (const Segment& edge : marker.edges) ends_edge[edge.a.index()] = ends_edge[edge.b.index()] = true;
         if (!may_be_wall(marker.kind)) continue;
         walls.markers.push_back({marker.name, MarkerKind::wall, marker.edges});
         for (const Segment& edge : marker.edges) ends_edge[edge.a.index()] = true;

@@ -175,6 +175,7 @@ namespace lamina {
 using namespace pipeline;
 
 Geometry prepare_geometry(Geometry geometry, const CaseOptions& options) {
+    if (options.far_field.symmetry) geometry = cut_at_symmetry(std::move(geometry), *options.far_field.symmetry);
     const ReferenceConditions conditions = reference_conditions(options.conditions, reference_box(geometry));
     const layers::LayerGrowth growth = layers::layer_growth(options.layer, conditions);
     return surface::prepare_within(std::move(geometry), options.surface, spacing_limits(options, growth),
