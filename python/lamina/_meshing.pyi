@@ -110,6 +110,11 @@ def mesh(
     ground_wall: Literal["slip", "no-slip", "moving"] | None = None,
     # the same on ground without slip, as tunnel-layers
     ground_layers: str | float | Sequence[float] | None = None,
+    # line of symmetry y = Y, in units of the input, that cuts bodies and domain: what is above is kept; >=
+    # -1e+06 and <= 1e+06
+    symmetry: float | None = None,
+    # the line of symmetry, y = 0, is the axis of bodies of revolution
+    axisymmetric: bool | None = None,
     # growth of the edge length per unit of distance; > 0 and <= 1 [0.1]
     gradation: float | None = None,
     # largest edge length at the outer border of the layer; else the edges of the border decide; > 0

@@ -137,6 +137,8 @@ OptionTable<FarFieldOptions> option_rows() {
         Choices<OuterWallKind>{
             {"slip", OuterWallKind::slip}, {"no-slip", OuterWallKind::no_slip}, {"moving", OuterWallKind::moving}},
         member_at(&FarFieldOptions::ground_wall));
+    table.spec("ground-layers", "H", "the same on ground without slip, as tunnel-layers", parse_outer_layers,
+               outer_layers_text, member_at(&FarFieldOptions::ground_layers));
     table
         .number("symmetry", "Y",
                 "line of symmetry y = Y, in units of the input, that cuts bodies and domain: what is above is kept",
@@ -144,8 +146,6 @@ OptionTable<FarFieldOptions> option_rows() {
         .excludes = {"far-field-shape", "far-field-outline", "tunnel", "ground"};
     table.flag("axisymmetric", "the line of symmetry, y = 0, is the axis of bodies of revolution", true,
                member_at(&FarFieldOptions::axisymmetric));
-    table.spec("ground-layers", "H", "the same on ground without slip, as tunnel-layers", parse_outer_layers,
-               outer_layers_text, member_at(&FarFieldOptions::ground_layers));
     return table.take();
 }
 template LAMINA_EXPORT const OptionTable<FarFieldOptions>& option_table();
