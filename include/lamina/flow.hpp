@@ -75,9 +75,10 @@ struct Flow {
 /// below a vacuum, and with the lift coefficients that follow from them. Speeds and boundary layers stay. Precondition:
 /// 0 < mach < 1. Source: T. von Karman, J. Aeronaut. Sci. 8 (1941), after H. S. Tsien.
 LAMINA_EXPORT Flow with_compressed_pressures(Flow flow, double mach);
-/// Flat walls along the free stream, as ground and ceiling, in units of the input: y of each.
+/// Flat walls along the free stream, as ground and ceiling.
 struct FlowWalls {
-    std::optional<double> below{}, above{};
+    std::optional<double> below{};  ///< y of the wall below, in units of the input
+    std::optional<double> above{};  ///< y of the wall above
 };
 
 /// Returns the potential flow round all elements, as read or as prepared, between walls if there are any, and, where a Reynolds number is given, the

@@ -19,7 +19,7 @@ struct FarField {
     std::vector<Point> outline{};              ///< corners of the polygon
     double floor = -HUGE_VAL;                  ///< y of the wall below: ground, or the floor of a tunnel
     double ceiling = HUGE_VAL;                 ///< y of the wall above: the ceiling of a tunnel
-    bool is_half = false;  ///< whether the floor is a line of symmetry, on which bodies may stand
+    bool is_half = false;                      ///< whether the floor is a line of symmetry, on which bodies may stand
 
     /// Returns whether there is a wall below, and perhaps one above. The border of the domain then is the last one of
     /// those between which the decoupling cuts: layers may stand on it.

@@ -41,9 +41,8 @@ std::vector<std::vector<FrontCorner>> front_corners(const Rays& rays) {
                 continue;
             }
             const std::size_t next = i + 1 < end ? i + 1 : begin;
-            const bool one_corner =
-                counts[i] == 0 && counts[next] == 0 && set.lines[i].origin == set.lines[next].origin &&
-                i + 1 != rays.domain_end(e);
+            const bool one_corner = counts[i] == 0 && counts[next] == 0 &&
+                                    set.lines[i].origin == set.lines[next].origin && i + 1 != rays.domain_end(e);
             if (!one_corner) fronts[e].push_back({i, counts[i]});
             if (counts[i] > 0 || counts[next] > 0) continue;
             for (std::size_t k = 1; k <= set.lines[i].corner_after.size(); ++k) fronts[e].push_back({i, 0, k});
@@ -53,9 +52,8 @@ std::vector<std::vector<FrontCorner>> front_corners(const Rays& rays) {
 }
 
 std::size_t corners_in_domain(const Rays& rays, std::size_t element, std::span<const FrontCorner> corners) {
-    const auto hidden = std::find_if(corners.begin(), corners.end(), [&](const FrontCorner& corner) {
-        return corner.ray >= rays.domain_end(element);
-    });
+    const auto hidden = std::find_if(corners.begin(), corners.end(),
+                                     [&](const FrontCorner& corner) { return corner.ray >= rays.domain_end(element); });
     return static_cast<std::size_t>(hidden - corners.begin());
 }
 
