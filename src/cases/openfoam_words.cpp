@@ -87,8 +87,6 @@ void add_time(const CaseFlow& flow, Words& words) {
         unsteady ? "#include        \"march\"         // the step, and from when on fields are averaged\n" : "";
     words["TIME_STEP"] = unsteady ? "$timeStep" : "1";
     words["STEP"] = number(flow.chord / flow.velocity / time.per_time);
-    words["STEPS"] = fmt::format("{}", time.per_time);
-    words["TIMES"] = fmt::format("{}", time.times);
     words["TIME_AXIS"] = unsteady ? "time" : "iteration";
     words["WRITE_CONTROL"] = unsteady ? "runTime" : "timeStep";
     words["SHEAR_CONTROL"] = unsteady ? "timeStep" : "writeTime";
@@ -96,9 +94,6 @@ void add_time(const CaseFlow& flow, Words& words) {
     constexpr double across = 0.3;  // share of the speed that a gust has
     const Point gust = flow.velocity * (flow.direction + across * Point{-flow.direction.y, flow.direction.x});
     words["GUST"] = vector(gust.x, gust.y);
-    // The moment point is a quarter of the chord behind the nose.
-    words["MIDDLE_X"] = number(flow.moment_point.x + flow.chord / 4);
-    words["MIDDLE_Y"] = number(flow.moment_point.y);
     words["AVERAGE"] = unsteady ? R"(    average
     {
         type            fieldAverage;

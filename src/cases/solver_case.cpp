@@ -195,6 +195,16 @@ CaseFlow case_flow(FlowSolver solver, const Mesh& mesh, const SolverConditions& 
     return flow;
 }
 
+/// Returns the words for what Allrun does in time, which all solvers have in common.
+Words words_of_run(const CaseFlow& flow) {
+    const TimeSteps time = flow.time.value_or(TimeSteps{});
+    // The moment point is a quarter of the chord behind the nose.
+    return {{"STEPS", fmt::format("{}", time.per_time)},
+            {"TIMES", fmt::format("{}", time.times)},
+            {"MIDDLE_X", fmt::format("{}", flow.moment_point.x + flow.chord / 4)},
+            {"MIDDLE_Y", fmt::format("{}", flow.moment_point.y)}};
+}
+
 void write_case_file(const SolverCaseFile& file, const fs::path& folder) {
     const fs::path path = folder / file.name;
     write_file(path, file.text);
@@ -215,7 +225,8 @@ std::vector<SolverCaseFile> solver_case_files(FlowSolver solver, const Mesh& mes
             "--layer-topology quads, with thinner or fewer layers where rows would cross");
     const SolverEntry& entry = entry_of(solver);
     const CaseFlow flow = case_flow(solver, mesh, conditions, options);
-    const Words words = entry.words(flow);
+    Words words = entry.words(flow);
+    words.merge(words_of_run(flow));
     std::vector<SolverCaseFile> files;
     for (const Template& file : templates())
         if (belongs_to_case(file, entry, flow.turbulence, options))

@@ -61,13 +61,8 @@ void add_time(const CaseFlow& flow, Words& words) {
     words["MAX_ITERATIONS"] = max_iterations;
     words["RUN_COMMENT"] = flow.time ? "% Allrun changes TIME_ITER, and starts with a steady run." : steady_comment;
     words["END_OPTIONS"] = fmt::format(steady_end, max_iterations);
-    if (!flow.time) return;
-    words["END_OPTIONS"] = fmt::format(end_in_time, flow.chord / (stream_speed(flow) * flow.time->per_time));
-    words["STEPS"] = fmt::format("{}", flow.time->per_time);
-    words["TIMES"] = fmt::format("{}", flow.time->times);
-    // The moment point is a quarter of the chord behind the nose.
-    words["MIDDLE_X"] = fmt::format("{}", flow.moment_point.x + flow.chord / 4);
-    words["MIDDLE_Y"] = fmt::format("{}", flow.moment_point.y);
+    if (flow.time)
+        words["END_OPTIONS"] = fmt::format(end_in_time, flow.chord / (stream_speed(flow) * flow.time->per_time));
 }
 
 /// Returns the lines of walls that move with the free stream.
