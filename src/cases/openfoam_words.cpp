@@ -78,7 +78,7 @@ void add_medium(const CaseFlow& flow, Words& words) {
 }
 
 /// Adds what makes a case steady, or one in time.
-void add_time(const CaseFlow& flow, Words& words) {
+void add_time_scheme(const CaseFlow& flow, Words& words) {
     const bool unsteady = flow.time.has_value();
     const TimeSteps time = flow.time.value_or(TimeSteps{});
     words["TIME_SCHEME"] =
@@ -168,7 +168,7 @@ Words openfoam_words(const CaseFlow& flow) {
     words["VORTEX_Y"] = number(flow.moment_point.y);
     words["MAX_ITERATIONS"] = "8000";
     words["MOMENT_POINT"] = vector(flow.moment_point.x, flow.moment_point.y);
-    add_time(flow, words);
+    add_time_scheme(flow, words);
     add_medium(flow, words);
     add_turbulence(flow, words);
     return words;

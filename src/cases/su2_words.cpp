@@ -53,7 +53,7 @@ CONV_RESIDUAL_MINVAL= -2
 CONV_STARTITER= 2)";
 
 /// Adds what makes a case steady, or one in time.
-void add_time(const CaseFlow& flow, Words& words) {
+void add_time_options(const CaseFlow& flow, Words& words) {
     constexpr const char* max_iterations = "5000";
     words["TIME_COLUMN"] = flow.time ? "TIME_DOMAIN, " : "";
     words["TIME_ITERATION"] = flow.time ? "TIME_ITER, " : "";
@@ -111,7 +111,7 @@ Words su2_words(const CaseFlow& flow) {
     // SU2 goes from 10 to 15 degrees at once, too; the lift swings by half of itself then.
     constexpr double step_of_angles = 2.5;
     words["ANGLES"] = fmt::format("{}", fmt::join(angles_to(flow.alpha_deg, step_of_angles), " "));
-    add_time(flow, words);
+    add_time_options(flow, words);
     words["WALL_NAMES"] = fmt::format("{}", fmt::join(flow.walls, " "));
     words["WALLS"] = fmt::format("{}", fmt::join(flow.walls, ", "));
     words["HEAT_FLUXES"] = walls_with(flow, "0.0");

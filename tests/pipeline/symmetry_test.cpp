@@ -42,7 +42,7 @@ Geometry bodies(std::vector<std::vector<Point>> outlines) {
     return make_geometry(std::move(elements));
 }
 
-const Marker& marker_of(const Mesh& mesh, const std::string& name) {
+const Marker& existing_marker(const Mesh& mesh, const std::string& name) {
     const auto found =
         std::find_if(mesh.markers.begin(), mesh.markers.end(), [&](const Marker& m) { return m.name == name; });
     if (found == mesh.markers.end()) throw std::runtime_error("no marker " + name);
@@ -85,10 +85,10 @@ void expect_half(const MeshResult& result, const std::string& marker = "symmetry
     EXPECT_TRUE(check.valid());
     EXPECT_EQ(check.isotropic.angles_below_bound, check.isotropic.exempt);
     EXPECT_EQ(check.walls.bare_edges, 0u);
-    for (const Segment& edge : marker_of(result.mesh, marker).edges)
+    for (const Segment& edge : existing_marker(result.mesh, marker).edges)
         EXPECT_TRUE(result.mesh.points[edge.a.index()].y == 0 && result.mesh.points[edge.b.index()].y == 0);
     for (const Point p : result.mesh.points) EXPECT_GE(p.y, 0);
-    EXPECT_EQ(marker_of(result.mesh, marker).kind, MarkerKind::symmetry);
+    EXPECT_EQ(existing_marker(result.mesh, marker).kind, MarkerKind::symmetry);
     EXPECT_TRUE(check_mesh(both_halves(result.mesh)).valid());
 }
 
@@ -138,14 +138,15 @@ TEST(Symmetry, HalfASectionIsLikeTheWhole) {
     const MeshResult whole = generate_mesh(std::vector<std::string>{"naca:0012"}, options);
     const auto cells = [](const MeshResult& result) { return static_cast<double>(result.mesh.triangles.size()); };
     EXPECT_NEAR(cells(above) / cells(whole), 0.5, 0.03);
-    EXPECT_EQ(marker_of(above.mesh, "airfoil").edges.size(), marker_of(whole.mesh, "airfoil").edges.size() / 2);
+    EXPECT_EQ(existing_marker(above.mesh, "airfoil").edges.size(),
+              existing_marker(whole.mesh, "airfoil").edges.size() / 2);
 }
 
 TEST(Symmetry, ALineBelowAllBodiesIsASlipWall) {
     CaseOptions options = half(-0.5);
     const MeshResult result = generate_mesh(std::vector<std::string>{"naca:0012"}, options);
     EXPECT_TRUE(result.check.valid());
-    for (const Segment& edge : marker_of(result.mesh, "symmetry").edges)
+    for (const Segment& edge : existing_marker(result.mesh, "symmetry").edges)
         EXPECT_EQ(result.mesh.points[edge.a.index()].y, -0.5);
     options.far_field.symmetry.reset();
     const double lowest = bounding_box(read_geometry(std::vector<std::string>{"naca:0012"})).lower.y;
@@ -162,7 +163,7 @@ TEST(Symmetry, TheMeshDependsOnNeitherThreadsNorTheLine) {
         with_threads(threads, [&] { meshes.push_back(generate_mesh(bodies({arc({0, 0}, 0.5)}), options).mesh); });
     EXPECT_EQ(mesh_hash(meshes[0]), mesh_hash(meshes[1]));
     EXPECT_TRUE(check_mesh(meshes[0]).valid());
-    for (const Segment& edge : marker_of(meshes[0], "symmetry").edges)
+    for (const Segment& edge : existing_marker(meshes[0], "symmetry").edges)
         EXPECT_EQ(meshes[0].points[edge.a.index()].y, 0.1);
 }
 
