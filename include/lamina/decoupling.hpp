@@ -37,13 +37,8 @@ enum class OuterWallKind {
     moving,   ///< it sticks to the wall, which moves with the free stream
 };
 
-/// A y+ that the top of the first layer on a wall lies at, as LayerOptions::first_height may have one.
-struct OuterYPlus {
-    double y_plus = 1;  ///< as for a flat plate as long as the chord
-};
-
 /// The first height of the layers on a wall of the domain.
-using OuterLayers = std::variant<Length, OuterYPlus>;
+using OuterLayers = std::variant<Length, YPlus>;
 
 /// Options of the far field. It lies round the middle of the configuration.
 struct FarFieldOptions {

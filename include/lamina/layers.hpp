@@ -51,12 +51,6 @@ enum class LayerTopology {
     quads,     ///< the grid with whole cells; triangles in fans, where the number of layers changes, and on the border
 };
 
-/// A first height that follows from the flow (conditions.hpp): the top of the first layer lies at this y+ on a flat
-/// plate as long as the chord: y+ chord / (Re sqrt(cf / 2)), with cf = 0.026 / Re^(1/7).
-struct YPlus {
-    double y_plus = 1;  ///< height of the first layer in units of the viscous length
-};
-
 /// Options of the layer.
 struct LayerOptions {
     bool enabled = true;                                      ///< false: isotropic triangles begin at the walls

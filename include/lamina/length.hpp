@@ -42,4 +42,10 @@ constexpr double in_chords(Length length, double chord) {
     return length.unit == LengthUnit::chord ? length.value : length.value / chord;
 }
 
+/// A first height that follows from the flow (conditions.hpp): the top of the first layer lies at this y+ on a flat
+/// plate as long as the chord: y+ chord / (Re sqrt(cf / 2)), with cf = 0.026 / Re^(1/7).
+struct YPlus {
+    double y_plus = 1;  ///< height of the first layer in units of the viscous length
+};
+
 }  // namespace lamina

@@ -45,13 +45,13 @@ OuterLayers parse_outer_layers(const std::string& text) {
     require_in_range(positive_numbers, height.value, "layers");
     if (!is_y_plus) return height;
     if (height.unit != LengthUnit::chord) throw UsageError("'" + text + "': a y+ has no unit");
-    return OuterYPlus{height.value};
+    return YPlus{height.value};
 }
 
 /// Returns the text that parse_outer_layers() reads back.
 std::string outer_layers_text(const OuterLayers& layers) {
     const auto* height = std::get_if<Length>(&layers);
-    return height ? core::length_text(*height) : core::concat("y+", std::get<OuterYPlus>(layers).y_plus);
+    return height ? core::length_text(*height) : core::concat("y+", std::get<YPlus>(layers).y_plus);
 }
 
 /// Adds the option of the tunnel: its height and how far it goes on both ways.

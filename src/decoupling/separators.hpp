@@ -1,6 +1,7 @@
 // Lines between subdomains, divided into segments that follow the size field.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include <lamina/point.hpp>
@@ -13,6 +14,9 @@ namespace lamina::decoupling {
 /// have the length of the edges that refinement makes on either side, and grow as the field does. Both directions of a
 /// line give the same points.
 std::vector<Point> divide_separator(Point u, Point v, const SizeField& size, std::size_t min_segments = 1);
+
+/// The least number of segments of a side of the far field.
+inline constexpr std::size_t min_segments_of_side = 3;
 
 /// Divides a circle into at least `min_segments` segments with equal shares of the integral of ds / h, as a separator
 /// is divided, and returns the vertices counter-clockwise.

@@ -118,7 +118,7 @@ std::vector<Segment> edges_along(const Lines& lines, std::uint32_t line) {
 }
 
 std::vector<Segment> add_far_field_outline(Skeleton& skeleton, const FarField& far_field, const SizeField& size) {
-    constexpr std::size_t min_segments_of_side = 3, min_segments_of_circle = 16;
+    constexpr std::size_t min_segments_of_circle = 16;
     std::vector<Point> loop;
     if (far_field.shape == FarFieldShape::circle) {
         loop = divide_circle(far_field.center, far_field.radius, size, min_segments_of_circle);

@@ -23,8 +23,6 @@ struct PartPoint {
 
 using Part = std::vector<PartPoint>;
 
-Point image(Point p, double y) { return {p.x, 2 * y - p.y}; }
-
 /// Returns the points of an outline. Those that stand on the line but for rounding are put there.
 Part points_of(const Element& element, double y) {
     constexpr double rounding = 1e-9;  // of the extent
@@ -85,7 +83,7 @@ void set_outline(Element& element, const Part& part, double y) {
     const auto add = [&](const PartPoint& p, bool is_image) {
         if (p.is_corner) element.features.corners.push_back(element.points.size());
         if (p.is_given) element.given_corners.push_back(element.points.size());
-        element.points.push_back(is_image ? image(p.at, y) : p.at);
+        element.points.push_back(is_image ? image_of(p.at, y) : p.at);
         element.lines.push_back(p.line);
     };
     for (const PartPoint& p : part) add(p, false);

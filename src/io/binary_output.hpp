@@ -27,6 +27,17 @@ char* store(char* p, T value, ByteOrder order = ByteOrder::little) {
     return p + sizeof value;
 }
 
+/// Returns the number that store() has stored at p. Precondition: there are as many bytes.
+template <class T>
+T load(const char* p, ByteOrder order) {
+    std::array<char, sizeof(T)> bytes;
+    std::memcpy(bytes.data(), p, sizeof(T));
+    if (order == ByteOrder::big) std::reverse(bytes.begin(), bytes.end());
+    T value;
+    std::memcpy(&value, bytes.data(), sizeof value);
+    return value;
+}
+
 template <class T>
 void write_value(std::ostream& out, T value, ByteOrder order = ByteOrder::little) {
     char bytes[sizeof value];

@@ -59,13 +59,8 @@ public:
     T number(const char* meaning) {
         if (!binary_) return ascii_number<T>(meaning);
         if (bytes_.size() - at_ < sizeof(T)) fail(fmt::format("the file ends where {} is expected", meaning));
-        char stored[sizeof(T)];
-        std::memcpy(stored, bytes_.data() + at_, sizeof stored);
-        if (order_ == ByteOrder::big) std::reverse(stored, stored + sizeof stored);
-        T value;
-        std::memcpy(&value, stored, sizeof value);
-        at_ += sizeof value;
-        return value;
+        at_ += sizeof(T);
+        return load<T>(bytes_.data() + at_ - sizeof(T), order_);
     }
     /// Returns a count of things that follow in the file. Fails where the rest of the file is too short for that many
     /// of at least `bytes_each` bytes in a binary file, or two in an ASCII file, so that no damaged count asks for

@@ -82,13 +82,8 @@ public:
     template <class T>
     T stored(ByteOrder order) {
         if (bytes_.size() - at_ < sizeof(T)) fail("the file ends within a list");
-        char bytes[sizeof(T)];
-        std::memcpy(bytes, bytes_.data() + at_, sizeof bytes);
-        if (order == ByteOrder::big) std::reverse(bytes, bytes + sizeof bytes);
-        T value;
-        std::memcpy(&value, bytes, sizeof value);
-        at_ += sizeof value;
-        return value;
+        at_ += sizeof(T);
+        return load<T>(bytes_.data() + at_ - sizeof(T), order);
     }
     /// Goes behind the parenthesis that closes `open` others.
     void close(std::size_t open) {

@@ -285,11 +285,7 @@ std::vector<T> VtkXmlFile::converted(std::string_view plain, const std::string& 
     if (plain.size() % sizeof(Stored) != 0) fail(fmt::format("array '{}' has a broken length", name));
     std::vector<T> result(plain.size() / sizeof(Stored));
     for (std::size_t i = 0; i < result.size(); ++i) {
-        char bytes[sizeof(Stored)];
-        std::memcpy(bytes, plain.data() + i * sizeof bytes, sizeof bytes);
-        if (order_ == ByteOrder::big) std::reverse(bytes, bytes + sizeof bytes);
-        Stored value;
-        std::memcpy(&value, bytes, sizeof value);
+        const auto value = load<Stored>(plain.data() + i * sizeof(Stored), order_);
         if constexpr (std::is_integral_v<T>) {
             bool fits = false;
             if constexpr (std::is_integral_v<Stored>) fits = std::in_range<T>(value);

@@ -9,6 +9,7 @@
 #include <lamina/layers.hpp>
 
 #include "core/bounding_box.hpp"
+#include "geometry/symmetry.hpp"
 #include "layers/directions/corners.hpp"
 #include "layers/directions/rays.hpp"
 #include "layers/heights/heights.hpp"
@@ -73,10 +74,22 @@ void add_outer_wall(const OuterWall& wall, RaySet& set) {
     set.begin.push_back(set.lines.size());
 }
 
+/// Returns the image of a ray in a line of symmetry. `before` is the ray before it, behind which the corner of the wall is
+/// that is behind the image.
+RayLine image_of_ray(const RayLine& ray, const RayLine& before, double y) {
+    RayLine image = ray;
+    image.origin = geometry::image_of(ray.origin, y);
+    image.direction.y = -ray.direction.y;
+    image.corner_after.clear();
+    for (auto p = before.corner_after.rbegin(); p != before.corner_after.rend(); ++p)
+        image.corner_after.push_back(geometry::image_of(*p, y));
+    return image;
+}
+
 /// Makes the rays of a body with a line of symmetry images of each other. Those that stand where the line meets the body,
 /// the first one and the last one above, lie in the line. Returns how many rays are not below it.
 std::size_t mirror_rays(const Element& element, double y, std::vector<RayLine>& rays) {
-    constexpr double least_rise = 0.02;  // of the next ray of a fan
+    constexpr double rounding = 1e-6;  // a ray of a fan that rises less lies in the line
     const Point tail = element.points.front();
     std::vector<RayLine> above;
     for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -97,42 +110,17 @@ std::size_t mirror_rays(const Element& element, double y, std::vector<RayLine>& 
             above.back().on_symmetry = true;
         };
         if (is_tail && is_first) add_on_line();
-        if (in_fan && ray.direction.y > least_rise) {
+        if (in_fan && ray.direction.y > rounding) {
             above.push_back(ray);
         } else if (!is_tail && !above.back().on_symmetry) {
             add_on_line();
         }
     }
-    const auto image = [&](Point p) { return Point{p.x, 2 * y - p.y}; };
-    const auto corner_before = [&](std::size_t i) {
-        std::vector<Point> corner;
-        for (const Point p : above[i - 1].corner_after) corner.insert(corner.begin(), image(p));
-        return corner;
-    };
     const std::size_t shown = above.size();
-    above.back().corner_after = corner_before(shown - 1);
-    for (std::size_t i = shown - 1; i-- > 1;) {
-        RayLine& ray = above.emplace_back(RayLine(above[i]));
-        ray.origin = image(ray.origin);
-        ray.direction.y = -ray.direction.y;
-        ray.corner_after = corner_before(i);
-    }
+    above.back().corner_after = image_of_ray(above.back(), above[shown - 2], y).corner_after;
+    for (std::size_t i = shown - 1; i-- > 1;) above.push_back(image_of_ray(above[i], above[i - 1], y));
     rays = std::move(above);
     return shown;
-}
-
-/// Adds the images of rays in a line of symmetry, in the order of the wall.
-void add_image(const RaySet& set, std::size_t element, double y, std::vector<RayLine>& images) {
-    const auto image = [&](Point p) { return Point{p.x, 2 * y - p.y}; };
-    const std::size_t begin = set.begin[element], end = set.begin[element + 1];
-    for (std::size_t i = end; i-- > begin;) {
-        RayLine& ray = images.emplace_back(RayLine(set.lines[i]));
-        ray.origin = image(ray.origin);
-        ray.direction.y = -ray.direction.y;
-        ray.corner_after.clear();
-        for (const Point p : set.lines[i > begin ? i - 1 : end - 1].corner_after)
-            ray.corner_after.insert(ray.corner_after.begin(), image(p));
-    }
 }
 
 /// The walls that rays grow from.
@@ -153,9 +141,10 @@ struct Walls {
 /// Adds the images of bodies in a line of symmetry.
 void add_images(const Walls& walls, RaySet& set) {
     for (const std::size_t e : walls.with_images()) {
-        std::vector<RayLine> images;
-        add_image(set, e, *walls.geometry.symmetry, images);
-        set.lines.insert(set.lines.end(), images.begin(), images.end());
+        const std::size_t begin = set.begin[e], end = set.begin[e + 1];
+        for (std::size_t i = end; i-- > begin;)
+            set.lines.push_back(
+                image_of_ray(set.lines[i], set.lines[i > begin ? i - 1 : end - 1], *walls.geometry.symmetry));
         set.begin.push_back(set.lines.size());
     }
 }

@@ -132,8 +132,7 @@ struct Rays {
     /// symmetry cuts it.
     std::vector<std::size_t> domain_ends;
     std::size_t outer_walls = 0;  ///< number of elements behind the bodies that are outer walls
-    std::size_t images =
-        0;  ///< number of last elements, the images of bodies in a line of symmetry: none is in the domain
+    std::size_t images = 0;       ///< number of last elements, images in a line of symmetry: none is in the domain
 
     /// Returns the number of elements of which a part is in the domain.
     std::size_t shown() const { return set.elements() - images; }

@@ -95,7 +95,8 @@ void complete_markers(const FittedLayer& fitted, const layers::Layer& layer, std
                       std::vector<Marker>& markers) {
     add_outer_walls(fitted.outer_walls, std::span(layer.edges.walls).last(layer.outer_walls), markers);
     if (!symmetry.empty()) {
-        const OuterWallFacts line{symmetry_name(options.far_field), fitted.far_field.floor, OuterWallKind::slip};
+        const OuterWallFacts line{symmetry_name(options.far_field), fitted.far_field.floor, OuterWallKind::slip, 0,
+                                  "symmetry"};
         add_outer_walls({&line, 1}, {&symmetry, 1}, markers);
     }
     if (!options.inlet_outlet && !options.far_field.tunnel) return;

@@ -8,6 +8,7 @@
 #include "core/option_rows.hpp"
 #include "core/reproducible_math.hpp"
 #include "decoupling/far_field.hpp"
+#include "geometry/symmetry.hpp"
 #include "pipeline/derived_options.hpp"
 #include "sizing/requests.hpp"
 
@@ -125,9 +126,7 @@ FlowWalls flow_walls(const Geometry& geometry, const CaseOptions& options) {
         decoupling::place_far_field(bounding_box(geometry), chord, options.far_field);
     FlowWalls walls;
     // Bodies that a line of symmetry cuts are whole in the geometry, and so make it a streamline themselves.
-    const bool is_cut = std::any_of(geometry.elements.begin(), geometry.elements.end(),
-                                    [](const Element& element) { return element.is_mirrored; });
-    if (std::isfinite(far_field.floor) && !is_cut) walls.below = far_field.floor;
+    if (std::isfinite(far_field.floor) && !geometry::is_cut(geometry)) walls.below = far_field.floor;
     if (std::isfinite(far_field.ceiling)) walls.above = far_field.ceiling;
     return walls;
 }
@@ -151,6 +150,8 @@ void validate(const CaseOptions& options) {
     require_stream_along_walls(options);
     if (options.layer.enabled && options.layer.wake_layers) {
         if (!options.use_flow) throw OptionError("wake_layers", "needs use_flow, which finds the wakes");
+        if (options.far_field.symmetry)
+            throw OptionError("wake_layers", "layers do not go on along wakes beside a line of symmetry");
         if (options.layer.layers) throw OptionError("wake_layers", "needs layers up to isotropy: layers auto");
     }
 }

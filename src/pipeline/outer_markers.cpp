@@ -45,11 +45,7 @@ void split_far_field(std::span<const Point> points, std::vector<Marker>& markers
 
 void add_outer_walls(std::span<const OuterWallFacts> walls, std::span<const std::vector<Segment>> edges,
                      std::vector<Marker>& markers) {
-    for (const OuterWallFacts& wall : walls)
-        require_free_names(markers, {wall.name},
-                           wall.name == "ground"                            ? "ground"
-                           : wall.name == "floor" || wall.name == "ceiling" ? "tunnel"
-                                                                            : "symmetry");
+    for (const OuterWallFacts& wall : walls) require_free_names(markers, {wall.name}, wall.option);
     for (std::size_t k = 0; k < walls.size(); ++k)
         markers.push_back(
             {walls[k].name, walls[k].kind == OuterWallKind::slip ? MarkerKind::symmetry : MarkerKind::wall, edges[k]});

@@ -8,13 +8,12 @@
 #include <lamina/error.hpp>
 
 #include "decoupling/separators.hpp"
+#include "geometry/symmetry.hpp"
 #include "layers/growth.hpp"
 
 namespace lamina::pipeline {
 
 namespace {
-
-constexpr std::size_t min_segments_of_side = 3;
 
 /// Returns the first height of the layers on a wall.
 double first_height_of(const std::optional<OuterLayers>& layers, const char* option,
@@ -22,7 +21,7 @@ double first_height_of(const std::optional<OuterLayers>& layers, const char* opt
     if (!layers) return growth.first_height;
     if (const auto* height = std::get_if<Length>(&*layers)) return in_units(*height, conditions.chord);
     if (!conditions.reynolds) throw OptionError(option, "a y+ needs reynolds, or velocity and viscosity");
-    return layers::first_height_for(std::get<OuterYPlus>(*layers).y_plus, *conditions.reynolds, conditions.chord);
+    return layers::first_height_for(std::get<YPlus>(*layers).y_plus, *conditions.reynolds, conditions.chord);
 }
 
 /// Returns the plate that a wall is for the rays. Its hidden part goes on beyond both sides of the domain, far enough
@@ -57,20 +56,21 @@ std::vector<OuterWallFacts> outer_wall_facts(const decoupling::FarField& far_fie
                                              const Geometry& geometry, const LayerOptions& layer,
                                              const ReferenceConditions& conditions, const layers::LayerGrowth& growth) {
     std::vector<OuterWallFacts> walls;
-    const auto add = [&](const char* name, double y, OuterWallKind kind, const std::optional<OuterLayers>& layers,
-                         const char* option) {
+    const auto add = [&](const char* name, double y, const char* option, OuterWallKind kind,
+                         const std::optional<OuterLayers>& layers, const char* of_layers) {
         const bool has_layers = layer.enabled && kind != OuterWallKind::slip;
-        walls.push_back({name, y, kind, has_layers ? first_height_of(layers, option, conditions, growth) : 0});
+        walls.push_back(
+            {name, y, kind, has_layers ? first_height_of(layers, of_layers, conditions, growth) : 0, option});
         if (has_layers) layers::layer_growth(layer, conditions, {walls.back().first_height});  // throws
     };
     if (options.ground)
-        add("ground", far_field.floor, options.ground_wall, options.ground_layers, "ground_layers");
+        add("ground", far_field.floor, "ground", options.ground_wall, options.ground_layers, "ground_layers");
     else if (options.tunnel)
-        add("floor", far_field.floor, options.tunnel_walls, options.tunnel_layers, "tunnel_layers");
-    const bool is_cut = std::any_of(geometry.elements.begin(), geometry.elements.end(),
-                                    [](const Element& element) { return element.is_mirrored; });
-    if (options.symmetry && !is_cut) add(symmetry_name(options), far_field.floor, OuterWallKind::slip, {}, "");
-    if (options.tunnel) add("ceiling", far_field.ceiling, options.tunnel_walls, options.tunnel_layers, "tunnel_layers");
+        add("floor", far_field.floor, "tunnel", options.tunnel_walls, options.tunnel_layers, "tunnel_layers");
+    if (options.symmetry && !geometry::is_cut(geometry))
+        add(symmetry_name(options), far_field.floor, "symmetry", OuterWallKind::slip, {}, "");
+    if (options.tunnel)
+        add("ceiling", far_field.ceiling, "tunnel", options.tunnel_walls, options.tunnel_layers, "tunnel_layers");
     return walls;
 }
 
@@ -84,7 +84,8 @@ std::vector<layers::OuterWall> divide_outer_walls(std::span<const OuterWallFacts
         const double begin = is_below ? domain.upper.x : domain.lower.x,
                      end = is_below ? domain.lower.x : domain.upper.x;
         std::vector<double> x{begin};
-        for (const Point p : decoupling::divide_separator({begin, wall.y}, {end, wall.y}, size, min_segments_of_side))
+        for (const Point p :
+             decoupling::divide_separator({begin, wall.y}, {end, wall.y}, size, decoupling::min_segments_of_side))
             x.push_back(p.x);
         x.push_back(end);
         divided.push_back(plate(wall, std::move(x), is_below));
@@ -176,7 +177,8 @@ RegionBorders close_domain(const layers::Layer& layer, const decoupling::FarFiel
         corners.push_back(layer.points[next.front().index()]);
         for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
             if (i > 0) add_point(corners[i]);
-            for (const Point p : decoupling::divide_separator(corners[i], corners[i + 1], size, min_segments_of_side))
+            for (const Point p :
+                 decoupling::divide_separator(corners[i], corners[i + 1], size, decoupling::min_segments_of_side))
                 add_point(p);
         }
         for (std::size_t i = first; i < loop.size(); ++i)

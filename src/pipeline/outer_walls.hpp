@@ -19,6 +19,7 @@ struct OuterWallFacts {
     double y = 0;             ///< where it lies
     OuterWallKind kind{};     ///< how the flow meets it
     double first_height = 0;  ///< of its layers, in units of the input; 0: it has none
+    const char* option = "";  ///< that asks for it
 };
 
 /// Returns the walls of this far field, the lower one first. A line of symmetry is one of them unless it cuts bodies. Those that are no slip walls have layers, unless layers

@@ -94,7 +94,6 @@ MadeMesh run(const Geometry& whole, CaseOptions options, MeshDriver& driver, Sta
     const std::optional<double> symmetry = options.far_field.symmetry;
     const Geometry cut = symmetry ? cut_at_symmetry(whole, *symmetry) : Geometry{};
     const Geometry& given = symmetry ? cut : whole;
-    if (symmetry) options.layer.wake_layers = false;
     const ReferenceConditions conditions = reference_conditions(options.conditions, reference_box(given));
     options.sizing = sizes_in_tunnel(std::move(options.sizing), options.far_field, conditions.chord, options.fineness);
     const WorkBudget budget{options.limits, driver.cost()};

@@ -84,7 +84,7 @@ void multiply_first_heights(double factor, FarFieldOptions& far_field) {
         if (auto* height = std::get_if<Length>(&**layers))
             height->value *= factor;
         else
-            std::get<OuterYPlus>(**layers).y_plus *= factor;
+            std::get<YPlus>(**layers).y_plus *= factor;
     }
 }
 

@@ -195,9 +195,9 @@ SpacingLimits mirrored_limits(SpacingLimits limits, const Geometry& geometry) {
     for (std::size_t i = 0; i < n; ++i) {
         geometry::WallSpacing wall = limits.walls[i];
         if (!is_mirrored(wall)) continue;
-        std::swap(wall.a, wall.b);
-        wall.a.y = 2 * y - wall.a.y;
-        wall.b.y = 2 * y - wall.b.y;
+        const Point first = wall.a;
+        wall.a = geometry::image_of(wall.b, y);
+        wall.b = geometry::image_of(first, y);
         limits.walls.push_back(wall);
     }
     return limits;

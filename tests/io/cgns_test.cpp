@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <lamina/error.hpp>
@@ -20,6 +21,24 @@ namespace {
 
 using test::TemporaryFolder;
 using test::tiny;
+
+/// The name of a section, its kind of elements, and the first and the last of them.
+using CgnsSection = std::tuple<std::string, ElementType_t, cgsize_t, cgsize_t>;
+
+std::vector<CgnsSection> sections_of(int file) {
+    int count = 0;
+    EXPECT_EQ(cg_nsections(file, 1, 1, &count), CG_OK);
+    std::vector<CgnsSection> sections;
+    for (int s = 1; s <= count; ++s) {
+        char name[33];
+        ElementType_t elements;
+        cgsize_t first = 0, last = 0;
+        int boundary_elements = 0, parents = 0;
+        EXPECT_EQ(cg_section_read(file, 1, 1, s, name, &elements, &first, &last, &boundary_elements, &parents), CG_OK);
+        sections.emplace_back(name, elements, first, last);
+    }
+    return sections;
+}
 
 TEST(Cgns, HoldsEverythingThatSolversLookFor) {
     const TemporaryFolder folder;
@@ -47,21 +66,11 @@ TEST(Cgns, HoldsEverythingThatSolversLookFor) {
             EXPECT_EQ(data, RealDouble);
         }
 
-        const std::vector<std::tuple<std::string, ElementType_t, cgsize_t, cgsize_t>> sections{
-            {"isotropic_triangles", TRI_3, 1, 1},
-            {"layer_quads", QUAD_4, 2, 2},
-            {"wall", BAR_2, 3, 4},
-            {"farfield", BAR_2, 5, 7}};
-        ASSERT_EQ(cg_nsections(file, 1, 1, &count), CG_OK);
-        ASSERT_EQ(count, 4);
-        for (int s = 1; s <= count; ++s) {
-            ElementType_t elements;
-            cgsize_t first = 0, last = 0;
-            int boundary_elements = 0, parents = 0;
-            ASSERT_EQ(cg_section_read(file, 1, 1, s, name, &elements, &first, &last, &boundary_elements, &parents),
-                      CG_OK);
-            EXPECT_EQ(std::tuple(std::string(name), elements, first, last), sections[std::size_t(s - 1)]);
-        }
+        const std::vector<CgnsSection> sections{{"isotropic_triangles", TRI_3, 1, 1},
+                                                {"layer_quads", QUAD_4, 2, 2},
+                                                {"wall", BAR_2, 3, 4},
+                                                {"farfield", BAR_2, 5, 7}};
+        EXPECT_EQ(sections_of(file), sections);
 
         ASSERT_EQ(cg_nbocos(file, 1, 1, &count), CG_OK);
         ASSERT_EQ(count, 2);
@@ -113,20 +122,11 @@ TEST(Cgns, HoldsMeshesInSpace) {
         ASSERT_EQ(cg_zone_read(file, 1, 1, name, sizes), CG_OK);
         EXPECT_EQ(sizes[0], 20);
         EXPECT_EQ(sizes[1], 6);
-        const std::vector<std::tuple<std::string, ElementType_t, cgsize_t, cgsize_t>> sections{
-            {"fluid_prisms", PENTA_6, 1, 3}, {"fluid_hexahedra", HEXA_8, 4, 6}, {"wall", QUAD_4, 7, 12},
-            {"farfield", QUAD_4, 13, 21},    {"z0_triangles", TRI_3, 22, 22},   {"z0_quads", QUAD_4, 23, 23},
-            {"z1_triangles", TRI_3, 24, 24}, {"z1_quads", QUAD_4, 25, 25}};
-        ASSERT_EQ(cg_nsections(file, 1, 1, &count), CG_OK);
-        ASSERT_EQ(count, 8);
-        for (int s = 1; s <= count; ++s) {
-            ElementType_t elements;
-            cgsize_t first = 0, last = 0;
-            int boundary_elements = 0, parents = 0;
-            ASSERT_EQ(cg_section_read(file, 1, 1, s, name, &elements, &first, &last, &boundary_elements, &parents),
-                      CG_OK);
-            EXPECT_EQ(std::tuple(std::string(name), elements, first, last), sections[std::size_t(s - 1)]);
-        }
+        const std::vector<CgnsSection> sections{{"fluid_prisms", PENTA_6, 1, 3}, {"fluid_hexahedra", HEXA_8, 4, 6},
+                                                {"wall", QUAD_4, 7, 12},         {"farfield", QUAD_4, 13, 21},
+                                                {"z0_triangles", TRI_3, 22, 22}, {"z0_quads", QUAD_4, 23, 23},
+                                                {"z1_triangles", TRI_3, 24, 24}, {"z1_quads", QUAD_4, 25, 25}};
+        EXPECT_EQ(sections_of(file), sections);
         ASSERT_EQ(cg_nbocos(file, 1, 1, &count), CG_OK);
         EXPECT_EQ(count, periodic ? 2 : 4);
         ASSERT_EQ(cg_nconns(file, 1, 1, &count), CG_OK);

@@ -181,7 +181,7 @@ TEST(OuterWalls, AreRefusedWhereTheyCannotBe) {
     options.far_field.ground_wall = OuterWallKind::moving;
     EXPECT_THROW(mesh_of_section(options), OptionError) << "there is no ground";
     options.far_field.ground = Length{0.5};
-    options.far_field.ground_layers = OuterYPlus{1};
+    options.far_field.ground_layers = YPlus{1};
     options.layer.enabled = true;
     EXPECT_THROW(mesh_of_section(options), OptionError) << "a y+ needs a Reynolds number";
     Mesh mesh = test::annulus();

@@ -120,7 +120,7 @@ TEST(OuterWalls, LayersHaveAFirstHeightOfTheirOwn) {
     options.far_field.ground_layers = Length{1e-4};
     options.far_field.tunnel = Length{2};
     options.far_field.tunnel_walls = OuterWallKind::no_slip;
-    options.far_field.tunnel_layers = OuterYPlus{30};
+    options.far_field.tunnel_layers = YPlus{30};
     options.conditions.reynolds = 1e6;
     const MeshResult result = mesh_of({"naca:0012"}, options);
     ASSERT_EQ(result.outer_walls.size(), 2u);

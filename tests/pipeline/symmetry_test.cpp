@@ -189,6 +189,11 @@ TEST(Symmetry, WhatCannotBeCutIsRefusedInOneLine) {
     options = half();
     options.far_field.ground = Length{1};
     EXPECT_NE(refusal({arc({0, 0}, 0.5)}, options).find("symmetry"), std::string::npos);
+    options = half();
+    options.use_flow = true;
+    options.conditions.reynolds = 1e6;
+    options.layer = {.wake_layers = true};
+    EXPECT_NE(refusal({arc({0, 0}, 0.5)}, options).find("wakes"), std::string::npos);
 }
 
 TEST(Symmetry, ABodyThatTheLineCutsInTwoBecomesTwo) {
