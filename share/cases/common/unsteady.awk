@@ -6,8 +6,8 @@
 # convective times of the whole run, and of the steps in each. WALLS has a line for each wall: its name, and the largest
 # and the mean y+ of its first cells, at their tops. The exit code is 1 where a number is not finite.
 #
-# Lift crosses its mean upwards once in a period. A period of noise is none: between two crossings lift must have been
-# below the mean by half the standard deviation.
+# Lift crosses its mean upwards once in a period. A period of noise is none: lift must come from below the mean by half the
+# standard deviation and go as far above it. Less than two periods give no frequency.
 
 function finite(x) { return x ~ /^[-+0-9.e]+$/ }
 
@@ -43,8 +43,9 @@ END {
     vl = sqrt(vl / n); vd = sqrt(vd / n)
     for (i = 2; i <= n; ++i) {
         if (l[i] < cl - vl / 2) low = 1
-        if (low && l[i - 1] < cl && l[i] >= cl) {
-            crossing = t[i - 1] + (t[i] - t[i - 1]) * (cl - l[i - 1]) / (l[i] - l[i - 1])
+        if (low && l[i - 1] < cl && l[i] >= cl) at = t[i - 1] + (t[i] - t[i - 1]) * (cl - l[i - 1]) / (l[i] - l[i - 1])
+        if (low && l[i] > cl + vl / 2) {
+            crossing = at
             if (!periods++) first = crossing
             low = 0
         }
@@ -64,7 +65,7 @@ END {
     printf "  \"change_CL\": %.4g,\n  \"change_CD\": %.4g,\n", late_l / (n - early) - early_l / early,
         late_d / (n - early) - early_d / early >json
     frequency = "null"
-    if (periods > 0) {
+    if (periods > 1) {
         frequency = sprintf("%.5g", periods / (crossing - first))
         printf "  %-24s %10.4f   of %d periods, per chord\n", "Strouhal number", frequency, periods
     } else
