@@ -35,6 +35,12 @@ struct OutlineFeatures {
     Point trailing_edge{};
 };
 
+/// A part of the wall of bodies that were joined (GeometryOptions::unite), which has a marker of its own.
+struct WallPart {
+    std::string name;  ///< of its marker: that of the body that it comes from. Several parts may have one name
+    Point begin;       ///< the vertex that it begins at, counter-clockwise; it ends where the next one begins
+};
+
 /// One closed body.
 struct Element {
     std::string name;             ///< name of its marker in the mesh: a legal one (marker_names.hpp)
@@ -63,6 +69,7 @@ struct Element {
     /// Whether the part of the outline below Geometry::symmetry is the image of that above, which the line cut off. The
     /// outline then begins on the line, at the tail.
     bool is_mirrored = false;
+    std::vector<WallPart> parts{};  ///< of bodies that were joined; empty for others
 };
 
 /// Bodies that are closed, simple and pairwise disjoint.
@@ -91,6 +98,7 @@ struct GeometryOptions {
     std::vector<std::string> names{};
     std::size_t naca_points = 0;  ///< of `naca:` inputs without a number; 0: many samples of the formula
     bool close = false;           ///< whether open outlines are closed by straight edges, however long
+    bool unite = false;           ///< whether bodies that overlap or touch are joined, after the transformations
     bool mirror_half = false;     ///< whether files hold one half of symmetric sections, which is mirrored
     std::vector<Transformation> transformations{};  ///< applied in this order: transformed()
 };

@@ -42,6 +42,9 @@ def mesh(
     # complete symmetric sections of which the files hold one half, from nose to tail: the other half is its
     # mirror image
     mirror_half: bool | None = None,
+    # join bodies that overlap or touch, after all transformations: the outline is the outer border of their
+    # union, and each part of the wall keeps the marker of its body
+    union: bool | None = None,
     # change of an element, given by its name, or of all: scale:S[:X,Y], rotate:DEG[:X,Y] (counter-clockwise,
     # about the origin or X,Y), shift:DX,DY, mirror[:Y] (in a horizontal line), flap:DEG:X,Y (a plain flap with
     # its hinge at X,Y, downwards); may be given several times, in order

@@ -15,6 +15,7 @@
 #include "core/bounding_box.hpp"
 #include "core/box_tree.hpp"
 #include "core/polygon.hpp"
+#include "geometry/inside.hpp"
 
 namespace lamina::geometry {
 
@@ -71,8 +72,8 @@ std::string advice_on_separate_sections(const Element& e, const Element& f) {
     const Element &e = *first.element, &f = *second.element;
     const std::string reason =
         &e == &f ? fmt::format("the outline {} itself: {} and {}", verb, describe(first), describe(second))
-                 : fmt::format("the outline {} that of '{}' ({}): {} and there {}{}", verb, f.name, f.file,
-                               describe(first), describe(second), advice_on_separate_sections(e, f));
+                 : fmt::format("the outline {} that of '{}' ({}): {} and there {}; --union joins them{}", verb, f.name,
+                               f.file, describe(first), describe(second), advice_on_separate_sections(e, f));
     throw InputError({e.file, line_near(e, first.index, false), at}, reason);
 }
 
@@ -148,18 +149,6 @@ void check_orientation(const Element& e) {
     throw InputError({e.file, line_near(e, i, true), e.points[i]}, "the outline runs clockwise");
 }
 
-/// Returns whether p lies inside an outline, by the parity of its crossings with the ray from p towards +x.
-/// Precondition: p is not on the outline.
-bool contains(const Element& e, Point p) {
-    bool inside = false;
-    for (std::size_t i = 0, n = e.points.size(); i < n; ++i) {
-        const Point a = e.points[i], b = e.points[(i + 1) % n];
-        if ((a.y > p.y) == (b.y > p.y)) continue;
-        if ((orient2d(a, b, p) > 0) == (b.y > a.y)) inside = !inside;
-    }
-    return inside;
-}
-
 /// Throws InputError where an element lies inside another one. Precondition: no two outlines touch.
 void check_side_by_side(const std::vector<Element>& elements) {
     std::vector<Box> boxes;
@@ -168,7 +157,8 @@ void check_side_by_side(const std::vector<Element>& elements) {
     std::optional<std::pair<std::size_t, std::size_t>> first;  // the first element that lies inside, and round it
     const auto look = [&](std::size_t i, std::size_t j) {
         const Point p = elements[i].points[0];
-        if (boxes[j].contains(p) && contains(elements[j], p)) first = std::min(first.value_or(std::pair(i, j)), {i, j});
+        if (boxes[j].contains(p) && contains(elements[j].points, p))
+            first = std::min(first.value_or(std::pair(i, j)), {i, j});
     };
     core::BoxTree(boxes).overlapping_pairs([&](std::size_t i, std::size_t j) {
         look(i, j);
@@ -176,9 +166,11 @@ void check_side_by_side(const std::vector<Element>& elements) {
     });
     if (!first) return;
     const Element &inner = elements[first->first], &outer = elements[first->second];
-    throw InputError({inner.file, line_near(inner, 0, true), inner.points[0]},
-                     fmt::format("'{}' lies inside '{}' ({}); elements must lie side by side{}", inner.name, outer.name,
-                                 outer.file, advice_on_separate_sections(inner, outer)));
+    throw InputError(
+        {inner.file, line_near(inner, 0, true), inner.points[0]},
+        fmt::format("'{}' lies inside '{}' ({}); elements must lie side by side, and --union joins those that do "
+                    "not{}",
+                    inner.name, outer.name, outer.file, advice_on_separate_sections(inner, outer)));
 }
 
 }  // namespace

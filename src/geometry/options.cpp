@@ -19,6 +19,10 @@ OptionTable<GeometryOptions> option_rows() {
                "complete symmetric sections of which the files hold one half, from nose to tail: the other half is its "
                "mirror image",
                true, member_at(&GeometryOptions::mirror_half));
+    table.flag("union",
+               "join bodies that overlap or touch, after all transformations: the outline is the outer border of their "
+               "union, and each part of the wall keeps the marker of its body",
+               true, member_at(&GeometryOptions::unite));
     table.specs("transform", "ELEMENT:CHANGE",
                 "change of an element, given by its name, or of all: scale:S[:X,Y], rotate:DEG[:X,Y] "
                 "(counter-clockwise, about the origin or X,Y), shift:DX,DY, mirror[:Y] (in a horizontal line), "

@@ -23,6 +23,7 @@
 #include "geometry/outline_repair.hpp"
 #include "geometry/parse_airfoil.hpp"
 #include "geometry/point_runs.hpp"
+#include "geometry/unite.hpp"
 
 namespace lamina::geometry {
 
@@ -155,6 +156,7 @@ Geometry make_geometry(std::vector<Element> elements, const GeometryOptions& opt
     name_elements(geometry.elements, options);
     geometry.unturned_box = unturned_box(geometry, options.transformations);
     geometry = transformed(std::move(geometry), options.transformations);
+    if (options.unite) geometry = unite(std::move(geometry));
     check_simple(geometry);
     add_orientation_warnings(geometry);
     return geometry;

@@ -1,4 +1,5 @@
 #include "geometry/symmetry.hpp"
+#include "geometry/unite.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,6 +20,7 @@ struct PartPoint {
     std::size_t line = 0;    ///< Element::lines
     bool is_corner = false;  ///< one of OutlineFeatures::corners
     bool is_given = false;   ///< one of Element::given_corners
+    std::size_t part = 0;    ///< index of the one of Element::parts that the edge behind it belongs to
 };
 
 using Part = std::vector<PartPoint>;
@@ -27,9 +29,10 @@ using Part = std::vector<PartPoint>;
 Part points_of(const Element& element, double y) {
     constexpr double rounding = 1e-9;  // of the extent
     const double near = rounding * core::longer_side(core::bounding_box(element.points));
+    const std::vector<std::size_t> parts = parts_of_edges(element);
     Part points;
     for (std::size_t i = 0; i < element.points.size(); ++i) {
-        PartPoint p{element.points[i], i < element.lines.size() ? element.lines[i] : 0};
+        PartPoint p{element.points[i], i < element.lines.size() ? element.lines[i] : 0, false, false, parts[i]};
         if (std::abs(p.at.y - y) <= near) p.at.y = y;
         points.push_back(p);
     }
@@ -66,6 +69,7 @@ std::vector<Part> parts_above(const Part& points, double y) {
             return below.at.y == y ? below : PartPoint{crossing(below.at, above.at, y)};
         };
         Part part{end(from, first)};
+        part.front().part = from.part;
         std::size_t k = i + 1;
         for (; points[k % n].at.y > y; ++k) part.push_back(points[k % n]);
         part.push_back(end(points[k % n], points[(k - 1) % n]));
@@ -80,14 +84,26 @@ void set_outline(Element& element, const Part& part, double y) {
     element.lines.clear();
     element.features = {};
     element.given_corners.clear();
+    const std::vector<WallPart> parts = std::exchange(element.parts, {});
+    const auto begin_part = [&](std::size_t index, Point at) {
+        if (!parts.empty() && (element.parts.empty() || element.parts.back().name != parts[index].name))
+            element.parts.push_back({parts[index].name, at});
+    };
     const auto add = [&](const PartPoint& p, bool is_image) {
         if (p.is_corner) element.features.corners.push_back(element.points.size());
         if (p.is_given) element.given_corners.push_back(element.points.size());
         element.points.push_back(is_image ? image_of(p.at, y) : p.at);
         element.lines.push_back(p.line);
     };
-    for (const PartPoint& p : part) add(p, false);
-    for (std::size_t i = part.size() - 1; i-- > 1;) add(part[i], true);
+    for (std::size_t i = 0; i < part.size(); ++i) {
+        if (i + 1 < part.size()) begin_part(part[i].part, part[i].at);
+        add(part[i], false);
+    }
+    for (std::size_t i = part.size() - 1; i-- > 1;) {
+        begin_part(part[i].part, element.points.back());
+        add(part[i], true);
+    }
+    if (part.size() > 1) begin_part(part.front().part, element.points.back());
     element.is_mirrored = true;
 }
 
@@ -130,7 +146,9 @@ void add_above(const Element& element, double y, std::vector<Element>& result) {
         require_body(element, parts[k], y);
         Element& part = result.emplace_back(element);
         set_outline(part, parts[k], y);
-        if (k > 0) part.name += fmt::format("_{}", k + 1);
+        if (k == 0) continue;
+        part.name += fmt::format("_{}", k + 1);
+        for (WallPart& wall : part.parts) wall.name += fmt::format("_{}", k + 1);
     }
 }
 

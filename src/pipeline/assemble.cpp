@@ -36,6 +36,28 @@ std::vector<Segment> take_base(const Element& element, std::span<const Point> po
     return base;
 }
 
+/// Sorts the edges of the wall of a body that was joined from several by the markers of these. Edges run against the
+/// outline, in its order; some of their vertices are no points of the outline.
+std::vector<Marker> markers_of_parts(const Element& element, std::span<const Point> points,
+                                     std::span<const Segment> wall) {
+    const auto begun_at = [&](std::size_t edge) {
+        return std::find_if(element.parts.begin(), element.parts.end(),
+                            [&](const WallPart& part) { return part.begin == points[wall[edge].b.index()]; });
+    };
+    std::size_t first = 0;
+    while (first < wall.size() && begun_at(first) == element.parts.end()) ++first;
+    std::vector<Marker> markers;
+    std::string name = element.parts.back().name;
+    for (std::size_t k = 0; k < wall.size(); ++k) {
+        const std::size_t edge = (first + k) % wall.size();
+        if (const auto begun = begun_at(edge); begun != element.parts.end()) name = begun->name;
+        auto marker = std::find_if(markers.begin(), markers.end(), [&](const Marker& m) { return m.name == name; });
+        if (marker == markers.end()) marker = markers.insert(marker, {name, MarkerKind::wall, {}});
+        marker->edges.push_back(wall[edge]);
+    }
+    return markers;
+}
+
 }  // namespace
 
 std::string wanted_base_name(const Element& element) {
@@ -46,6 +68,8 @@ std::string wanted_base_name(const Element& element) {
 std::vector<std::string> base_marker_names(const Geometry& geometry) {
     std::vector<core::NamedMarker> markers{{std::string(core::far_field_name), MarkerKind::far_field}};
     for (const Element& element : geometry.elements) markers.push_back({element.name, MarkerKind::wall});
+    for (const Element& element : geometry.elements)
+        for (const WallPart& part : element.parts) markers.push_back({part.name, MarkerKind::wall});
     for (const Element& element : geometry.elements) markers.push_back({wanted_base_name(element), MarkerKind::wall});
     const std::vector<std::string> names = core::legal_marker_names(markers);
     return {names.end() - static_cast<std::ptrdiff_t>(geometry.elements.size()), names.end()};
@@ -58,8 +82,14 @@ std::vector<Marker> make_markers(const Geometry& geometry, const layers::Layer& 
     for (std::size_t e = 0; e < geometry.elements.size(); ++e) {
         const Element& element = geometry.elements[e];
         std::vector<Segment> wall = layer.edges.walls[e], base;
+        std::vector<Marker> parts;
+        if (!element.parts.empty()) parts = markers_of_parts(element, layer.points, wall);
         if (options.base_marker && element.features.base) base = take_base(element, layer.points, wall);
-        markers.push_back({element.name, MarkerKind::wall, std::move(wall)});
+        if (parts.empty()) parts.push_back({element.name, MarkerKind::wall, std::move(wall)});
+        for (Marker& part : parts) {
+            std::erase_if(part.edges, [&](Segment s) { return std::find(base.begin(), base.end(), s) != base.end(); });
+            if (!part.edges.empty()) markers.push_back(std::move(part));
+        }
         if (!base.empty()) markers.push_back({base_names[e], MarkerKind::wall, std::move(base)});
     }
     markers.push_back({std::string(core::far_field_name), MarkerKind::far_field, std::move(far_field)});

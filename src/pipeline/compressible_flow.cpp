@@ -136,7 +136,9 @@ CompressibleFlow solve_compressible_flow(const Geometry& geometry, const FlowCon
     validate(conditions);
     if (!conditions.mach) throw OptionError("mach", "a compressible flow needs it");
     const ReferenceConditions reference = reference_conditions(conditions, reference_box(geometry));
-    const MeshResult made = generate_mesh(geometry, options_of_mesh(conditions));
+    Geometry whole = geometry;
+    for (Element& element : whole.elements) element.parts.clear();  // one marker each
+    const MeshResult made = generate_mesh(whole, options_of_mesh(conditions));
     const EulerMesh mesh = euler_mesh(made);
     // Layers hardly move the shocks of supersonic flow.
     const bool has_layers = *conditions.mach < 1 && !flow::is_laminar(reference);

@@ -1,5 +1,6 @@
 #include "pipeline/mesh_stages.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -78,10 +79,16 @@ void require_valid(const MeshCheck& check) {
 std::vector<double> first_heights_of_markers(const MeshResult& result, std::span<const Marker> markers) {
     std::vector<double> heights;
     if (result.first_heights.empty()) return heights;
-    std::size_t next = 0;
+    const std::vector<Element>& elements = result.geometry.elements;
+    const auto has_marker = [](const Element& element, const std::string& name) {
+        return element.parts.empty() ? element.name == name
+                                     : std::any_of(element.parts.begin(), element.parts.end(),
+                                                   [&](const WallPart& part) { return part.name == name; });
+    };
+    std::size_t current = 0;
     for (const Marker& marker : markers) {
-        if (next < result.geometry.elements.size() && marker.name == result.geometry.elements[next].name) ++next;
-        heights.push_back(result.first_heights[next - 1]);
+        if (current + 1 < elements.size() && has_marker(elements[current + 1], marker.name)) ++current;
+        heights.push_back(result.first_heights[current]);
         for (const OuterWallLayer& wall : result.outer_walls)
             if (wall.name == marker.name) heights.back() = wall.first_height;
     }

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include <lamina/io.hpp>
 #include <lamina/pipeline.hpp>
@@ -74,6 +75,45 @@ TEST(BaseMarkers, HaveNamesThatNoElementHas) {
         return warning.code == WarningCode::marker_renamed;
     });
     EXPECT_EQ(renamed, 1);
+}
+
+TEST(JoinedBodies, KeepTheirMarkersAndAreValid) {
+    // A section, a Gurney flap at its tail that overlaps it, and a strut through it.
+    const auto plate = [](double x0, double y0, double x1, double y1) {
+        return element_of_points(std::vector<Point>{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}, {x0, y0}}, "plate");
+    };
+    const std::vector<std::string> section{"naca:0012"};
+    std::vector<Element> bodies = read_inputs(section);
+    bodies.push_back(plate(0.97, -0.03, 0.985, 0));
+    bodies.push_back(plate(0.3, -0.2, 0.4, 0.15));
+    const Geometry geometry = make_geometry(std::move(bodies), {.names = {"wing", "tab", "strut"}, .unite = true});
+    ASSERT_EQ(geometry.elements.size(), 1u);
+    for (const std::optional<double> symmetry : {std::optional<double>(), std::optional(0.0)}) {
+        CaseOptions options;
+        options.far_field.size = 10;
+        options.far_field.symmetry = symmetry;
+        const MeshResult result = generate_mesh(geometry, options);
+        EXPECT_TRUE(check_mesh(result.mesh).valid());
+        std::vector<std::string> names;
+        std::size_t edges = 0;
+        for (const Marker& marker : result.mesh.markers) {
+            if (marker.kind != MarkerKind::wall) continue;
+            names.push_back(marker.name);
+            edges += marker.edges.size();
+            for (const Segment& edge : marker.edges) {
+                const Point at = midpoint(result.mesh.points[edge.a.index()], result.mesh.points[edge.b.index()]);
+                const double tiny = 1e-12;  // crossings are rounded
+                if (marker.name == "strut") EXPECT_LE(std::abs(at.x - 0.35), 0.05 + tiny);
+                if (marker.name == "tab") EXPECT_LE(std::abs(at.x - 0.9775), 0.0075 + tiny);
+                if (marker.name == "tab") EXPECT_LT(at.y, 0);
+                if (marker.name == "wing") EXPECT_LE(std::abs(at.y), 0.0601);
+            }
+        }
+        std::sort(names.begin(), names.end());
+        EXPECT_EQ(names, symmetry ? (std::vector<std::string>{"strut", "wing"})
+                                  : (std::vector<std::string>{"strut", "tab", "wing"}));
+        EXPECT_EQ(edges, result.check.walls.edges);
+    }
 }
 
 }  // namespace
