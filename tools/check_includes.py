@@ -27,6 +27,7 @@ PUBLIC = REPOSITORY / "include" / "lamina"
 
 # The rooms of folders, each after those that it may include.
 ROOMS = {
+    "geometry": ["drawings"],
     "delaunay": ["triangulate", "constrain", "refine", "queries", "dynamic", "pieces"],
     "layers": ["wake", "directions", "heights", "room", "cells", "border"],
 }

@@ -43,11 +43,12 @@ struct WallPart {
 
 /// One closed body.
 struct Element {
-    std::string name;             ///< name of its marker in the mesh: a legal one (marker_names.hpp)
-    std::string given_name;       ///< the name that the options or its file give it, which may be no legal one
-    std::string file;             ///< as the user gave it; "naca:0012" for generated sections
-    std::string title;            ///< the title line of the file, if it has one
-    std::string format;           ///< "selig", "lednicer", "table", "xy", "csv", "naca" or "points"
+    std::string name;        ///< name of its marker in the mesh: a legal one (marker_names.hpp)
+    std::string given_name;  ///< the name that the options or its file give it, which may be no legal one
+    std::string file;        ///< as the user gave it; "naca:0012" for generated sections
+    std::string title;       ///< the title line of the file, if it has one
+    /// "selig", "lednicer", "table", "xy", "csv", "naca", "points", "dxf", "svg", "iges" or "step".
+    std::string format;
     std::string unit;             ///< the unit of length that the file names, such as "mm"; empty where it names none
     std::size_t points_read = 0;  ///< number of points in the file; 0 for generated sections
     std::vector<Point> points;    ///< the outline; the first point is not repeated
@@ -91,6 +92,20 @@ LAMINA_EXPORT Box bounding_box(const Geometry& geometry);  ///< the box round al
 /// Returns the box whose width is the reference chord: Geometry::unturned_box, else bounding_box().
 LAMINA_EXPORT Box reference_box(const Geometry& geometry);
 
+/// The ways to make a blunt trailing edge sharp.
+enum class TailSharpening {
+    extend,  ///< both sides go on straight to where they meet, which makes the chord longer
+    blend,   ///< both sides move towards each other, as for a gap of 0
+};
+
+/// The gap of a trailing edge, in chords of its element, and the distance from the trailing edge over which the sides
+/// move, from 0 (the trailing edge alone) to 1 (in proportion to the distance from the leading edge). Source: the command
+/// TGAP of M. Drela's XFOIL (1989).
+struct TrailingEdgeGap {
+    double gap = 0;       ///< >= 0
+    double distance = 1;  ///< from 0 to 1
+};
+
 /// Options of read_geometry().
 struct GeometryOptions {
     /// Marker names, one per element; empty: file stems, or "airfoil" for one element. Those that are not legal are
@@ -100,7 +115,9 @@ struct GeometryOptions {
     bool close = false;           ///< whether open outlines are closed by straight edges, however long
     bool unite = false;           ///< whether bodies that overlap or touch are joined, after the transformations
     bool mirror_half = false;     ///< whether files hold one half of symmetric sections, which is mirrored
-    std::vector<Transformation> transformations{};  ///< applied in this order: transformed()
+    std::optional<TailSharpening> sharpen_te{};     ///< how blunt trailing edges become sharp; empty: they stay blunt
+    std::optional<TrailingEdgeGap> open_te{};       ///< the gap of all trailing edges; empty: as they are
+    std::vector<Transformation> transformations{};  ///< applied in this order, and after these: transformed()
 };
 
 LAMINA_EXPORT void validate(const GeometryOptions& options);  ///< throws OptionError: an option out of range

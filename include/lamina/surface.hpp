@@ -28,6 +28,26 @@ enum class SurfaceTreatment {
     resample,   ///< replaced by new points on a spline through them
 };
 
+/// The two sides of an element, between its trailing and its leading edge, the point farthest from it.
+enum class SurfaceSide {
+    both,
+    upper,  ///< the side that the outline runs over first, from the trailing edge on
+    lower,  ///< the other one
+};
+
+/// The largest spacing at a station of an element.
+struct StationSpacing {
+    std::string element;  ///< its name, or "all"
+    SurfaceSide side = SurfaceSide::both;
+    double station = 0;  ///< along the chord, from 0 at the leading edge to 1 at the trailing edge
+    double spacing = 0;  ///< in lengths of the element, > 0
+};
+
+/// Numbers of wall edges on both sides of an element.
+struct SideEdges {
+    std::size_t upper = 0, lower = 0;
+};
+
 /// Options of prepare_surfaces(). Lengths are shares of the element's length, the longer side of the tightest box round
 /// it, unless a comment says otherwise. `points` and the spacings at both edges make `automatic` resample.
 struct SurfaceOptions {
@@ -36,7 +56,11 @@ struct SurfaceOptions {
     /// Whether each element gets exactly `points` vertices: edges are shared out among the stretches between corners by
     /// the integrals of ds / spacing. Needs `points`, and no treatment `keep`.
     bool exact_points = false;
-    std::optional<std::size_t> base_edges{};  ///< of bases, of equal length, with `exact_points`; empty: points / 50
+    /// Edges of bases, of equal length, with `exact_points` or `side_edges`; empty: one for 50 of the others.
+    std::optional<std::size_t> base_edges{};
+    /// Exact numbers of edges on the sides of each element; those of the base come with base_edges. Excludes `points`.
+    std::optional<SideEdges> side_edges{};
+    std::vector<StationSpacing> station_spacings{};  ///< spacings at stations; they make `automatic` resample
     std::optional<Length> smooth{};  ///< points are smoothed first, and move by at most this; empty: no smoothing
     double max_turning_deg = 10;     ///< largest turning at a vertex between two corners
     double max_ratio = 1.2;          ///< largest ratio of neighbouring spacings, where none is below min_spacing

@@ -8,10 +8,10 @@
 #include "core/angles.hpp"
 #include "core/bounding_box.hpp"
 #include "core/rounding.hpp"
+#include "geometry/trailing_edge.hpp"
 #include "surface/clearance.hpp"
 #include "surface/corners.hpp"
 #include "surface/spline.hpp"
-#include "surface/trailing_edge.hpp"
 
 namespace lamina::flow {
 
@@ -116,7 +116,7 @@ OpenOutline cut_open(const Element& element, double extent) {
     const std::size_t n = points.size();
     OutlineFeatures features = element.features;
     if (features.corners.empty()) features.corners = surface::find_corners(element);
-    surface::find_trailing_edge(points, features);
+    geometry::find_trailing_edge(points, features);
     const RearEnd rear = find_rear_end(points, features, extent);
 
     const Point lower_end = points[rear.first], upper_end = points[rear.last];

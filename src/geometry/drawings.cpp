@@ -1,15 +1,21 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <map>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <lamina/error.hpp>
 
 #include "geometry/characters.hpp"
+#include "geometry/drawings/drawing.hpp"
+#include "geometry/drawings/outlines_of_drawing.hpp"
 #include "geometry/other_formats.hpp"
 
 namespace lamina::geometry {
@@ -107,48 +113,87 @@ bool is_json_without_points(std::string_view text) {
     return has_object(text) ? !lists_points : !lists.empty() && lists[0].has_lines;
 }
 
-struct Drawing {
+struct Format {
     const char* name;
     const char* advice;
     std::array<const char*, 2> extensions;
     bool (*is_it)(std::string_view);
+    const char* short_name;                                 ///< as Element::format
+    Drawing (*read)(std::string_view, const std::string&);  ///< null where it is not read
 };
 
-constexpr const char* flatten = "turn the outline into a polyline and export its vertices";
-constexpr const char* divide = "divide the curves and export the points";
-
-constexpr std::array<Drawing, 5> drawings = {
-    {{"a DXF drawing, of which lamina reads no curves", flatten, {".dxf", ".DXF"}, is_dxf},
-     {"an SVG drawing, of which lamina reads no curves",
-      "flatten the path and export its points",
+constexpr std::array<Format, 5> formats = {
+    {{"a DXF drawing",
+      "save it as ASCII with lines, arcs, polylines and splines (explode the rest), or export points",
+      {".dxf", ".DXF"},
+      is_dxf,
+      "dxf",
+      read_dxf},
+     {"an SVG drawing",
+      "turn objects to paths and unlink clones, or export points",
       {".svg", ".SVG"},
-      [](std::string_view text) { return text.substr(0, 4096).find("<svg") != std::string_view::npos; }},
-     {"an IGES file, of which lamina reads no curves", divide, {".igs", ".iges"}, is_iges},
-     {"a STEP file, of which lamina reads no curves",
-      divide,
+      [](std::string_view text) { return text.substr(0, 4096).find("<svg") != std::string_view::npos; },
+      "svg",
+      read_svg},
+     {"an IGES file",
+      "export the section's curves as B-splines (126), lines and arcs, or export points",
+      {".igs", ".iges"},
+      is_iges,
+      "iges",
+      read_iges},
+     {"a STEP file",
+      "export the section's edges as B-splines, lines and circles, or export points",
       {".stp", ".step"},
-      [](std::string_view text) { return trimmed(text.substr(0, 64)).starts_with("ISO-10303-21"); }},
+      [](std::string_view text) { return trimmed(text.substr(0, 64)).starts_with("ISO-10303-21"); },
+      "step",
+      read_step},
      {"JSON, of which lamina reads lists of points alone",
       "print the points, in Python by 'for p in zip(d[\"x\"], d[\"y\"]): print(*p)'",
       {".json", ".geojson"},
-      is_json_of_axes}}};
+      is_json_of_axes,
+      "json",
+      nullptr}}};
 
-[[noreturn]] void refuse(const Drawing& drawing, const std::string& file) {
-    throw InputError({file, 1, {}}, fmt::format("{}: {}, one line 'x y' each", drawing.name, drawing.advice));
+[[noreturn]] void refuse(const Format& format, const std::string& reason, const std::string& file) {
+    throw InputError({file, 1, {}}, fmt::format("{}{}: {}, one line 'x y' each", format.name, reason, format.advice));
+}
+
+/// Returns "2 TEXT, 1 DIMENSION".
+std::string list_of(const std::map<std::string, std::size_t>& left_out) {
+    std::vector<std::string> parts;
+    for (const auto& [kind, count] : left_out) parts.push_back(fmt::format("{} {}", count, kind));
+    return fmt::format("{}", fmt::join(parts, ", "));
 }
 
 }  // namespace
 
-void refuse_drawings(std::string_view text, const std::string& file) {
-    for (const Drawing& drawing : drawings)
-        if (drawing.is_it(text)) refuse(drawing, file);
+std::optional<std::vector<RawOutline>> read_drawing(std::string_view text, const std::string& file, bool keep_open) {
+    const auto format = std::find_if(formats.begin(), formats.end(), [&](const Format& f) { return f.is_it(text); });
+    if (format == formats.end()) return std::nullopt;
+    if (format->read == nullptr) refuse(*format, "", file);
+    if (text.starts_with("AutoCAD Binary")) refuse(*format, " in binary form", file);
+    Drawing drawing = format->read(text, file);
+    const std::string left_out = list_of(drawing.left_out);
+    if (drawing.curves.empty())
+        refuse(*format, " without curves that lamina reads" + (left_out.empty() ? "" : " (" + left_out + ")"), file);
+    std::vector<std::string> notes;
+    if (!left_out.empty()) notes.push_back("left out of the drawing: " + left_out);
+    const std::string unit = drawing.unit;
+    std::vector<RawOutline> outlines = outlines_of_drawing(std::move(drawing), file, keep_open, notes);
+    for (RawOutline& outline : outlines) {
+        outline.format = format->short_name;
+        outline.unit = unit;
+    }
+    outlines[0].notes.insert(outlines[0].notes.begin(), notes.begin(), notes.end());
+    return outlines;
 }
 
 void refuse_unread_drawings(std::string_view text, const std::string& file) {
-    if (is_json_without_points(text)) refuse(drawings.back(), file);
+    if (is_json_without_points(text)) refuse(formats.back(), "", file);
     const auto is_extension = [&](const char* extension) { return file.ends_with(extension); };
-    for (const Drawing& drawing : drawings)
-        if (std::any_of(drawing.extensions.begin(), drawing.extensions.end(), is_extension)) refuse(drawing, file);
+    for (const Format& format : formats)
+        if (std::any_of(format.extensions.begin(), format.extensions.end(), is_extension))
+            refuse(format, format.read != nullptr ? " by its name, but not by what it holds" : "", file);
 }
 
 }  // namespace lamina::geometry

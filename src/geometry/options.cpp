@@ -2,8 +2,24 @@
 #include <lamina/geometry.hpp>
 
 #include "core/option_rows.hpp"
+#include "core/text.hpp"
 
 namespace lamina {
+
+namespace {
+
+constexpr OptionRange gaps = numbers_from_to(0, 0.2), distances = numbers_from_to(0, 1);
+constexpr const char* open_te_key = "open_te";
+
+TrailingEdgeGap parse_gap(const std::string& text) {
+    const std::vector<double> numbers = core::parse_numbers(text, ':');
+    core::require_text(numbers.size() <= 2, text, "it is GAP or GAP:DISTANCE");
+    return numbers.size() > 1 ? TrailingEdgeGap{numbers[0], numbers[1]} : TrailingEdgeGap{numbers[0]};
+}
+
+std::string gap_text(const TrailingEdgeGap& gap) { return core::concat(gap.gap, ":", gap.distance); }
+
+}  // namespace
 
 template <>
 OptionTable<GeometryOptions> option_rows() {
@@ -23,6 +39,19 @@ OptionTable<GeometryOptions> option_rows() {
                "join bodies that overlap or touch, after all transformations: the outline is the outer border of their "
                "union, and each part of the wall keeps the marker of its body",
                true, member_at(&GeometryOptions::unite));
+    table.choice(
+        "sharpen-te",
+        "make blunt trailing edges sharp: extend both sides straight to where they meet, or blend them together "
+        "within the chord; before the changes of transform",
+        Choices<TailSharpening>{{"extend", TailSharpening::extend}, {"blend", TailSharpening::blend}},
+        member_at(&GeometryOptions::sharpen_te));
+    table
+        .spec("open-te", "GAP[:DISTANCE]",
+              "gap of all trailing edges, in chords of their elements, sharp ones too: the sides move apart by a share "
+              "that fades over DISTANCE chords before the trailing edge, as XFOIL's TGAP does; 1, the default: in "
+              "proportion to the distance from the nose",
+              parse_gap, gap_text, member_at(&GeometryOptions::open_te))
+        .excludes = {"sharpen-te"};
     table.specs("transform", "ELEMENT:CHANGE",
                 "change of an element, given by its name, or of all: scale:S[:X,Y], rotate:DEG[:X,Y] "
                 "(counter-clockwise, about the origin or X,Y), shift:DX,DY, mirror[:Y] (in a horizontal line), "
@@ -39,6 +68,11 @@ template LAMINA_EXPORT const OptionTable<GeometryOptions>& option_table();
 
 void validate(const GeometryOptions& options) {
     require_in_range(option_table<GeometryOptions>(), options);
+    if (options.open_te) {
+        require_in_range(gaps, options.open_te->gap, open_te_key);
+        require_in_range(distances, options.open_te->distance, open_te_key);
+    }
+    if (options.open_te && options.sharpen_te) throw OptionError(open_te_key, "excludes sharpening (sharpen_te)");
     if (options.close && options.mirror_half)
         throw OptionError("mirror_half", "excludes closing the half by a straight edge (close)");
 }

@@ -4,16 +4,19 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "geometry/coordinate_blocks.hpp"
+#include "geometry/outlines.hpp"
 
 namespace lamina::geometry {
 
-/// Throws InputError, which says how to export points, for DXF, SVG, IGES, STEP, and for JSON that lists all x and then
-/// all y.
-void refuse_drawings(std::string_view text, const std::string& file);
+/// Reads the outlines of a DXF or SVG drawing, of an IGES or of a STEP file; nothing for other texts. Throws InputError,
+/// which says how to export points, for those without outlines, and for JSON that lists all x and then all y.
+std::optional<std::vector<RawOutline>> read_drawing(std::string_view text, const std::string& file, bool keep_open);
 
-/// Throws the same for a text that cannot be read otherwise, where it is JSON or the extension is that of one of these.
+/// Throws InputError, which says the same, for a text that cannot be read otherwise, where it is JSON or the extension is
+/// that of one of these.
 void refuse_unread_drawings(std::string_view text, const std::string& file);
 
 /// Reads the points of Gmsh's geometry files, in the order in which lines and splines join them. Loops that contain all

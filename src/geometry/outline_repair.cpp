@@ -326,7 +326,8 @@ Element repair_outline(const RawOutline& outline, const std::string& file, const
     const SourcePoints& given = outline.points;
     const bool closed = given.size() > 1 && distance(given.front().at, given.back().at) <= merge_tolerance(given);
     SourcePoints points = without_duplicates(given, file, element.repairs);
-    remove_noise(points, closed, element);
+    element.samples_of_curve = outline.samples_of_curve;
+    if (!outline.samples_of_curve) remove_noise(points, closed, element);
     const SourcePoint last = points.back();
     merge_crossed_neighbours(points, element.repairs);
     cut_flat_tail(points, element.repairs);
@@ -342,6 +343,7 @@ Element repair_outline(const RawOutline& outline, const std::string& file, const
             fmt::format("{}clockwise order reversed, starting from {}", line, coordinates(points[0].at)));
     }
     for (const SourcePoint& p : points) {
+        if (p.is_corner) element.given_corners.push_back(element.points.size());
         element.points.push_back(p.at);
         element.lines.push_back(p.line);
     }

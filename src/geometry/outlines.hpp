@@ -19,6 +19,7 @@ struct RawOutline {
     std::string format;              ///< as in Element
     std::string unit;                ///< as in Element
     std::vector<std::string> notes;  ///< decisions of the reader that its user should know
+    bool samples_of_curve = false;   ///< as in Element; the points that are corners are marked
 };
 
 /// Returns the outlines of a document. An open run is one only where it is the only one of its section, or `keep_open`.

@@ -17,7 +17,8 @@ namespace lamina::geometry {
 namespace {
 
 std::vector<RawOutline> outlines_of_text(std::string_view text, const std::string& file, bool keep_open) {
-    refuse_drawings(text, file);
+    if (std::optional<std::vector<RawOutline>> outlines = read_drawing(text, file, keep_open))
+        return *std::move(outlines);
     try {
         std::optional<CoordinateDocument> document = read_gmsh_points(text, file);
         if (!document) document = read_plot3d(text);

@@ -23,6 +23,7 @@
 #include "geometry/outline_repair.hpp"
 #include "geometry/parse_airfoil.hpp"
 #include "geometry/point_runs.hpp"
+#include "geometry/tail_shape.hpp"
 #include "geometry/unite.hpp"
 
 namespace lamina::geometry {
@@ -154,6 +155,7 @@ Geometry make_geometry(std::vector<Element> elements, const GeometryOptions& opt
     if (elements.empty()) throw UsageError("no input given");
     Geometry geometry{std::move(elements)};
     name_elements(geometry.elements, options);
+    for (Element& element : geometry.elements) shape_tail(element, options);
     geometry.unturned_box = unturned_box(geometry, options.transformations);
     geometry = transformed(std::move(geometry), options.transformations);
     if (options.unite) geometry = unite(std::move(geometry));

@@ -163,14 +163,6 @@ private:
 
 }  // namespace
 
-std::vector<double> turning_angles(std::span<const Point> outline) {
-    const std::size_t n = outline.size();
-    std::vector<double> result(n);
-    for (std::size_t i = 0; i < n; ++i)
-        result[i] = core::angle_between(outline[i] - outline[(i + n - 1) % n], outline[(i + 1) % n] - outline[i]);
-    return result;
-}
-
 std::vector<std::size_t> find_corners(std::span<const Point> outline) {
     const CornerFinder finder(outline);
     std::vector<std::size_t> corners;

@@ -8,10 +8,11 @@
 #include <lamina/geometry.hpp>
 #include <lamina/point.hpp>
 
+#include "geometry/trailing_edge.hpp"
+
 namespace lamina::surface {
 
-/// Returns the exterior angle at every vertex of a closed outline, in radians, positive where the outline turns left.
-std::vector<double> turning_angles(std::span<const Point> outline);
+using geometry::turning_angles;
 
 /// Returns the indices of the corners of a closed outline, ascending. A vertex is a corner where the outline turns far
 /// more than beside it:

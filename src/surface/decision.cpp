@@ -239,6 +239,11 @@ Decision decide_smooth(const Element& e, std::size_t index, const ResamplingRequ
     return decision;
 }
 
+/// Returns whether a format (Element::format) is one of curves.
+bool is_drawing(const std::string& format) {
+    return format == "dxf" || format == "svg" || format == "iges" || format == "step";
+}
+
 }  // namespace
 
 bool Decision::keeps_all() const {
@@ -275,7 +280,9 @@ Decision decide(const Element& e, std::size_t index, const ResamplingRequest& re
     if (options.leading_edge_spacing || options.trailing_edge_spacing)
         return all(EdgeTreatment::spline, "a spacing is requested");
     if (e.samples_of_curve)
-        return all(EdgeTreatment::spline, e.format == "naca" ? "its formula is known" : "they were smoothed");
+        return all(EdgeTreatment::spline, e.format == "naca"     ? "its formula is known"
+                                          : is_drawing(e.format) ? "its curves are drawn"
+                                                                 : "they were smoothed");
     if (e.format == "naca") return all(EdgeTreatment::keep, "generated points are exact");
     if (e.features.corners.size() == e.points.size())
         return all(EdgeTreatment::spline, "they are the corners of a polygon");

@@ -15,7 +15,7 @@
 #include "surface/corners.hpp"
 #include "surface/notes.hpp"
 #include "surface/summary.hpp"
-#include "surface/trailing_edge.hpp"
+#include "geometry/trailing_edge.hpp"
 
 namespace lamina::surface {
 
@@ -50,7 +50,7 @@ ElementSummary summarize(const Element& element) {
         if (turning_deg > geometry::sharp_corner_deg) ++s.sharp_corners;
     }
     OutlineFeatures features;
-    find_trailing_edge(points, features);
+    geometry::find_trailing_edge(points, features);
     s.blunt_trailing_edge = features.base.has_value();
     s.trailing_edge = features.trailing_edge;
     return s;

@@ -17,13 +17,13 @@
 #include "core/reproducible_math.hpp"
 #include "core/segments.hpp"
 #include "core/tight_box.hpp"
+#include "geometry/trailing_edge.hpp"
 #include "surface/corners.hpp"
 #include "surface/decision.hpp"
 #include "surface/divide_curves.hpp"
 #include "surface/notes.hpp"
 #include "surface/smooth_run.hpp"
 #include "surface/spline.hpp"
-#include "surface/trailing_edge.hpp"
 
 namespace lamina::surface {
 
@@ -187,7 +187,7 @@ struct ChordEnds {
 ChordEnds find_chord_ends(std::span<const Point> outline) {
     constexpr double rounding = 1e-9;
     OutlineFeatures features;
-    find_trailing_edge(outline, features);
+    geometry::find_trailing_edge(outline, features);
     ChordEnds ends;
     double farthest = 0;
     for (Point p : outline) {
@@ -243,7 +243,7 @@ std::size_t base_edges(const SurfaceOptions& options) {
 /// Gives the curve along the base of an element this number of equal edges.
 void fix_base(OutlineCurves& curves, const Element& given, std::size_t edges) {
     OutlineFeatures features;
-    find_trailing_edge(given.points, features);
+    geometry::find_trailing_edge(given.points, features);
     if (!features.base) return;
     for (std::size_t i = 0; i < curves.curves.size(); ++i) {
         std::vector<std::size_t>& knots = curves.knots[i];

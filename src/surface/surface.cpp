@@ -21,7 +21,7 @@
 #include "surface/smooth_run.hpp"
 #include "surface/smoothing_spline.hpp"
 #include "surface/spacing_limits.hpp"
-#include "surface/trailing_edge.hpp"
+#include "geometry/trailing_edge.hpp"
 
 namespace lamina::surface {
 
@@ -246,7 +246,7 @@ Geometry prepare_within(Geometry given, const SurfaceOptions& options, const Spa
     restore_crossing(result, given);
     if (options.exact_points) require_number_of_points(result, *options.points);
     geometry::mirror_again(result);
-    for (Element& e : result.elements) find_trailing_edge(e.points, e.features);
+    for (Element& e : result.elements) geometry::find_trailing_edge(e.points, e.features);
     return result;
 }
 

@@ -1,15 +1,15 @@
-#include "surface/trailing_edge.hpp"
-#include "geometry/sharp_corner.hpp"
+#include "geometry/trailing_edge.hpp"
 
 #include <cmath>
 #include <optional>
 #include <vector>
 
+#include "core/angles.hpp"
 #include "core/bounding_box.hpp"
 #include "core/reproducible_math.hpp"
-#include "surface/corners.hpp"
+#include "geometry/sharp_corner.hpp"
 
-namespace lamina::surface {
+namespace lamina::geometry {
 
 namespace {
 
@@ -49,7 +49,7 @@ Point trailing_edge_of(std::span<const Point> points, std::span<const double> tu
     for (std::size_t i = 0; i < points.size(); ++i) {
         const Point p = points[i];
         if (p.x > rearmost.x || (p.x == rearmost.x && p.y < rearmost.y)) rearmost = p;
-        const bool is_sharp = core::degrees(turning[i]) > geometry::sharp_corner_deg && p.x > middle_x;
+        const bool is_sharp = core::degrees(turning[i]) > sharp_corner_deg && p.x > middle_x;
         const bool is_at_base = base && (i == base->first || i == base->last);
         if (is_sharp && !is_at_base && (!corner || p.x > corner->x)) corner = p;
     }
@@ -60,10 +60,18 @@ Point trailing_edge_of(std::span<const Point> points, std::span<const double> tu
 
 }  // namespace
 
+std::vector<double> turning_angles(std::span<const Point> outline) {
+    const std::size_t n = outline.size();
+    std::vector<double> result(n);
+    for (std::size_t i = 0; i < n; ++i)
+        result[i] = core::angle_between(outline[i] - outline[(i + n - 1) % n], outline[(i + 1) % n] - outline[i]);
+    return result;
+}
+
 void find_trailing_edge(std::span<const Point> outline, OutlineFeatures& features) {
     const std::vector<double> turning = turning_angles(outline);
     features.base = find_base(outline, turning);
     features.trailing_edge = trailing_edge_of(outline, turning, features.base);
 }
 
-}  // namespace lamina::surface
+}  // namespace lamina::geometry

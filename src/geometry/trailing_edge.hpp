@@ -2,10 +2,14 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include <lamina/geometry.hpp>
 
-namespace lamina::surface {
+namespace lamina::geometry {
+
+/// Returns the exterior angle at every vertex of a closed outline, in radians, positive where the outline turns left.
+std::vector<double> turning_angles(std::span<const Point> outline);
 
 /// Finds the base and the trailing edge of a closed counter-clockwise outline and sets them in its features.
 ///
@@ -13,4 +17,4 @@ namespace lamina::surface {
 /// shorter than half of the body and in its rear half. Of several bases the rearmost counts.
 void find_trailing_edge(std::span<const Point> outline, OutlineFeatures& features);
 
-}  // namespace lamina::surface
+}  // namespace lamina::geometry

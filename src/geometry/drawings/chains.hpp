@@ -1,0 +1,30 @@
+// Curves that end where others begin are joined to chains.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "geometry/drawings/plane.hpp"
+
+namespace lamina::geometry {
+
+/// A curve of a chain, by its number.
+struct ChainLink {
+    std::size_t curve;
+    bool is_reversed = false;
+};
+
+struct Chain {
+    std::vector<ChainLink> links;
+    bool is_closed = false;
+};
+
+/// Joins curves whose ends are within a tolerance. Where more than two meet, lines that go nowhere and straight lines
+/// between two such places are construction lines, and left out, with a note of their number. Throws InputError, with the
+/// place, where more than two are left. Curves of no length, and those that repeat another one, are left out.
+std::vector<Chain> join_curves(std::span<const FlatCurve> curves, double tolerance, const std::string& file,
+                               std::vector<std::string>& notes);
+
+}  // namespace lamina::geometry

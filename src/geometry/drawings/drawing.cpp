@@ -1,0 +1,50 @@
+#include "geometry/drawings/drawing.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <lamina/error.hpp>
+
+#include "geometry/characters.hpp"
+
+namespace lamina::geometry {
+
+void add_curve(Drawing& drawing, DrawnCurve curve, const std::string& what, const std::string& file) {
+    drawing.control_points += curve.curve.control.size();
+    if (drawing.curves.size() == max_drawn_curves || drawing.control_points > max_control_points)
+        throw InputError({file, curve.line, {}},
+                         fmt::format("more than {} curves or {} of their control points in one drawing",
+                                     max_drawn_curves, max_control_points));
+    if (const std::string defect = defect_of(curve.curve); !defect.empty())
+        throw InputError({file, curve.line, {}}, fmt::format("{}: {}", what, defect));
+    drawing.curves.push_back(std::move(curve));
+}
+
+double drawn_number(std::string_view text, const std::string& file, std::uint32_t line) {
+    constexpr double largest = 1e60;  // as of all coordinates
+    constexpr std::size_t longest = 64;
+    const std::string_view shown = trimmed(text);
+    std::string plain(shown.substr(shown.starts_with('+') ? 1 : 0, longest));
+    for (char& c : plain)
+        if (c == 'D' || c == 'd') c = 'e';
+    double value = 0;
+    const char *const begin = plain.data(), *const end = begin + plain.size();
+    const auto [rest, error] = std::from_chars(begin, end, value);
+    if (shown.size() > longest || error != std::errc() || rest != end || !(std::abs(value) <= largest))
+        throw InputError({file, line, {}},
+                         fmt::format("'{}' is not a number of a drawing", printable(shown.substr(0, longest))));
+    return value;
+}
+
+std::size_t drawn_count(std::string_view text, const std::string& file, std::uint32_t line) {
+    constexpr double largest = 4e9;
+    const double value = drawn_number(text, file, line);
+    if (!(value >= 0 && value <= largest) || value != std::floor(value))
+        throw InputError({file, line, {}}, fmt::format("'{}' is not a whole number", printable(trimmed(text))));
+    return static_cast<std::size_t>(value);
+}
+
+}  // namespace lamina::geometry

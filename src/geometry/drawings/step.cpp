@@ -1,0 +1,441 @@
+// STEP: numbered instances "#12=NAME(...);" that name each other. Of a part the edges are read, of a drawing its curves.
+// Source: ISO 10303-21 (2016), the text; ISO 10303-42, curves.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <set>
+#include <span>
+#include <unordered_map>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <lamina/error.hpp>
+
+#include "core/reproducible_math.hpp"
+#include "core/text.hpp"
+#include "geometry/characters.hpp"
+#include "geometry/drawings/drawing.hpp"
+
+namespace lamina::geometry {
+
+namespace {
+
+constexpr std::size_t max_depth_of_instances = 16;
+
+bool is_blank(char c) { return is_space(c) || c == '\n' || c == '\r'; }
+
+std::string_view without_blanks(std::string_view text) {
+    while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+    while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+    return text;
+}
+
+/// Returns the parts of a list "a,(b,c),'d'", which commas divide outside of brackets and texts.
+std::vector<std::string_view> parts_of(std::string_view list) {
+    std::vector<std::string_view> parts;
+    std::size_t depth = 0, begin = 0;
+    bool in_text = false;
+    for (std::size_t i = 0; i <= list.size(); ++i) {
+        const bool at_end = i == list.size();
+        if (!at_end && list[i] == '\'') in_text = !in_text;
+        if (!at_end && in_text) continue;
+        if (!at_end && list[i] == '(') ++depth;
+        if (!at_end && list[i] == ')' && depth > 0) --depth;
+        if (!at_end && (list[i] != ',' || depth > 0)) continue;
+        parts.push_back(without_blanks(list.substr(begin, i - begin)));
+        begin = i + 1;
+    }
+    return parts;
+}
+
+/// Returns what stands between the brackets of a list; empty for other texts.
+std::string_view inside(std::string_view list) {
+    if (list.size() < 2 || list.front() != '(' || list.back() != ')') return {};
+    return list.substr(1, list.size() - 2);
+}
+
+/// An instance: its text behind '=', such as "LINE('',#1,#2)", or "(A(1) B(2))".
+struct Instance {
+    std::string_view text;
+    std::uint32_t line = 0;
+
+    std::string_view name() const { return without_blanks(text.substr(0, std::min(text.find('('), text.size()))); }
+};
+
+class StepReader {
+public:
+    explicit StepReader(const std::string& file) : file_(file) {}
+
+    Drawing read(std::string_view text) {
+        divide(text);
+        read_unit(text);
+        bool has_edges = false;
+        for (const std::size_t number : order_) {
+            if (instances_.at(number).name() != "EDGE_CURVE") continue;
+            add_edge(number);
+            has_edges = true;
+        }
+        if (!has_edges) add_free_curves();
+        return std::move(drawing_);
+    }
+
+private:
+    const std::string& file_;
+    Drawing drawing_;
+    std::unordered_map<std::size_t, Instance> instances_;
+    std::vector<std::size_t> order_;  ///< of the instances in the file
+
+    [[noreturn]] void refuse(std::size_t number, const std::string& reason) const {
+        const auto found = instances_.find(number);
+        const std::uint32_t line = found == instances_.end() ? 0 : found->second.line;
+        throw InputError({file_, line, {}}, fmt::format("STEP instance #{}: {}", number, reason));
+    }
+
+    /// Divides the text at semicolons outside of texts and comments.
+    void divide(std::string_view text) {
+        std::uint32_t line = 1, first_line = 1;
+        std::size_t begin = 0;
+        bool in_text = false;
+        for (std::size_t i = 0; i < text.size(); ++i) {
+            const char c = text[i];
+            if (c == '\n') ++line;
+            if (c == '\'') in_text = !in_text;
+            if (in_text) continue;
+            if (c == '/' && text.substr(i).starts_with("/*")) {
+                const std::size_t end = std::min(text.find("*/", i), text.size());
+                line += static_cast<std::uint32_t>(std::count(text.begin() + static_cast<std::ptrdiff_t>(i),
+                                                              text.begin() + static_cast<std::ptrdiff_t>(end), '\n'));
+                i = end;
+                if (without_blanks(text.substr(begin, i - begin)).starts_with("/*"))
+                    begin = std::min(i + 2, text.size());
+            } else if (c == ';') {
+                add_instance(text.substr(begin, i - begin), first_line);
+                begin = i + 1;
+            } else if (begin == i && is_blank(c)) {
+                ++begin;
+            }
+            if (begin > i) first_line = line;
+        }
+    }
+
+    void add_instance(std::string_view text, std::uint32_t line) {
+        text = without_blanks(text);
+        const std::size_t equals = text.find('=');
+        if (!text.starts_with('#') || equals == std::string_view::npos) return;
+        const std::size_t number = drawn_count(text.substr(1, equals - 1), file_, line);
+        if (instances_.emplace(number, Instance{without_blanks(text.substr(equals + 1)), line}).second)
+            order_.push_back(number);
+    }
+
+    /// Reads the unit of length: a metre with a prefix, or another one by its name.
+    void read_unit(std::string_view text) {
+        const auto holds = [&](std::string_view part) { return text.find(part) != std::string_view::npos; };
+        if (holds("CONVERSION_BASED_UNIT('INCH'") || holds("CONVERSION_BASED_UNIT('inch'"))
+            drawing_.unit = "in";
+        else if (holds("SI_UNIT(.MILLI.,.METRE.)"))
+            drawing_.unit = "mm";
+        else if (holds("SI_UNIT(.CENTI.,.METRE.)"))
+            drawing_.unit = "cm";
+        else if (holds("SI_UNIT($,.METRE.)"))
+            drawing_.unit = "m";
+    }
+
+    // ---- instances -------------------------------------------------------------------------------------------------
+
+    const Instance& instance(std::size_t number) const {
+        const auto found = instances_.find(number);
+        if (found == instances_.end()) refuse(number, "it is named, but missing");
+        return found->second;
+    }
+
+    std::size_t reference(std::string_view text, std::size_t user) const {
+        if (!text.starts_with('#')) refuse(user, fmt::format("'{}' names no instance", printable(text.substr(0, 24))));
+        return drawn_count(text.substr(1), file_, instance(user).line);
+    }
+
+    double number(std::string_view text, std::size_t user) const {
+        return drawn_number(text, file_, instance(user).line);
+    }
+
+    /// Returns the parameters of an instance with a name, or of the part of an instance of several parts that has it.
+    std::optional<std::vector<std::string_view>> find_parameters(std::size_t number, std::string_view name) const {
+        const std::string_view text = instance(number).text;
+        if (!text.starts_with('(')) {
+            if (instance(number).name() != name) return std::nullopt;
+            return parts_of(inside(text.substr(std::min(text.find('('), text.size()))));
+        }
+        for (std::size_t at = text.find(name); at != std::string_view::npos; at = text.find(name, at + 1)) {
+            const char before = text[at - 1];
+            const std::size_t open = text.find_first_not_of(" \t\r\n", at + name.size());
+            if ((before != '(' && before != ')' && !is_blank(before)) || open == std::string_view::npos ||
+                text[open] != '(')
+                continue;
+            std::size_t depth = 0, end = open;
+            for (; end < text.size(); ++end) {
+                depth += text[end] == '(' ? 1 : 0;
+                if (text[end] == ')' && --depth == 0) break;
+            }
+            return parts_of(text.substr(open + 1, std::min(end, text.size()) - open - 1));
+        }
+        return std::nullopt;
+    }
+
+    /// Returns the parameters of an instance of a kind, of which there are so many at least.
+    std::vector<std::string_view> parameters(std::size_t number, std::string_view name, std::size_t least) const {
+        std::optional<std::vector<std::string_view>> list = find_parameters(number, name);
+        if (!list || list->size() < least)
+            refuse(number, fmt::format("it is no {}", core::lower_case(std::string(name))));
+        return *std::move(list);
+    }
+
+    /// Returns the coordinates of a point or of a direction.
+    Point3 triple(std::size_t number, std::string_view name) const {
+        const std::vector<std::string_view> list = parts_of(inside(parameters(number, name, 2)[1]));
+        if (list.size() != 2 && list.size() != 3) refuse(number, "it has neither two nor three coordinates");
+        return {this->number(list[0], number), this->number(list[1], number),
+                list.size() > 2 ? this->number(list[2], number) : 0};
+    }
+    Point3 point(std::size_t number) const { return triple(number, "CARTESIAN_POINT"); }
+
+    Point3 vertex(std::size_t number) const {
+        return point(reference(parameters(number, "VERTEX_POINT", 2)[1], number));
+    }
+
+    /// Returns the axes of a placement in space or in the plane.
+    Frame3 placement(std::size_t number) const {
+        if (const auto flat = find_parameters(number, "AXIS2_PLACEMENT_2D"); flat && flat->size() >= 3) {
+            const Point3 a = (*flat)[2].starts_with('#')
+                                 ? unit_or(triple(reference((*flat)[2], number), "DIRECTION"), {1, 0, 0})
+                                 : Point3{1, 0, 0};
+            return {point(reference((*flat)[1], number)), a, {-a.y, a.x, 0}, {0, 0, 1}};
+        }
+        const auto list = parameters(number, "AXIS2_PLACEMENT_3D", 4);
+        const auto direction = [&](std::string_view text, Point3 otherwise) {
+            return text.starts_with('#') ? unit_or(triple(reference(text, number), "DIRECTION"), otherwise) : otherwise;
+        };
+        const Point3 c = direction(list[2], {0, 0, 1});
+        const Point3 given = direction(list[3], std::abs(c.x) < 0.9 ? Point3{1, 0, 0} : Point3{0, 1, 0});
+        const Point3 a = unit_or(given - dot(given, c) * c, {1, 0, 0});
+        return {point(reference(list[1], number)), a, cross(c, a), c};
+    }
+
+    // ---- curves ----------------------------------------------------------------------------------------------------
+
+    /// A curve without ends of its own, or between its ends.
+    struct BasisCurve {
+        std::optional<SpaceCurve> spline;  ///< empty for conics and lines
+        std::optional<Frame3> ellipse;     ///< whose axes have the lengths of its radii
+        bool is_line = false;
+    };
+
+    /// Returns what a curve is; nothing for kinds that are not read.
+    std::optional<BasisCurve> basis(std::size_t number, std::size_t depth = 0) const {
+        if (depth > max_depth_of_instances) refuse(number, "curves name each other in a circle");
+        for (const char* name : {"SURFACE_CURVE", "SEAM_CURVE", "INTERSECTION_CURVE"})
+            if (const auto list = find_parameters(number, name); list && list->size() > 1)
+                return basis(reference((*list)[1], number), depth + 1);
+        if (const auto list = find_parameters(number, "TRIMMED_CURVE"); list && list->size() > 1)
+            return basis(reference((*list)[1], number), depth + 1);
+        if (find_parameters(number, "LINE")) return BasisCurve{{}, {}, true};
+        for (const char* name : {"CIRCLE", "ELLIPSE"}) {
+            const auto list = find_parameters(number, name);
+            if (!list || list->size() < 3) continue;
+            Frame3 frame = placement(reference((*list)[1], number));
+            frame.a = this->number((*list)[2], number) * frame.a;
+            frame.b = this->number(list->back(), number) * frame.b;
+            return BasisCurve{{}, frame, false};
+        }
+        if (std::optional<SpaceCurve> spline = spline_of(number)) return BasisCurve{std::move(spline), {}, false};
+        return std::nullopt;
+    }
+
+    std::vector<Point3> points_of(std::string_view list, std::size_t user) const {
+        std::vector<Point3> points;
+        for (const std::string_view part : parts_of(inside(list))) points.push_back(point(reference(part, user)));
+        return points;
+    }
+
+    /// Returns a B-spline, whose parameters are one list or stand in several parts, or a polyline.
+    std::optional<SpaceCurve> spline_of(std::size_t number) const {
+        if (const auto list = find_parameters(number, "POLYLINE"); list && list->size() > 1)
+            return polyline(points_of((*list)[1], number));
+        SpaceCurve curve;
+        std::optional<std::vector<std::string_view>> list = find_parameters(number, "B_SPLINE_CURVE_WITH_KNOTS"), knots;
+        std::size_t first = 1;  // behind the label
+        if (const auto base = find_parameters(number, "B_SPLINE_CURVE"); base && base->size() >= 2) {
+            knots = std::exchange(list, base);
+            first = 0;
+        } else if (list && list->size() >= 8) {
+            knots.emplace(list->begin() + 6, list->end());
+        } else {
+            for (const char* name : {"BEZIER_CURVE", "QUASI_UNIFORM_CURVE", "UNIFORM_CURVE"})
+                if (!list) list = find_parameters(number, name);
+        }
+        if (!list || list->size() < first + 2) return std::nullopt;
+        curve.degree = drawn_count((*list)[first], file_, instance(number).line);
+        curve.control = points_of((*list)[first + 1], number);
+        if (const auto weights = find_parameters(number, "RATIONAL_B_SPLINE_CURVE"); weights && !weights->empty())
+            for (const std::string_view part : parts_of(inside((*weights)[0])))
+                curve.weights.push_back(this->number(part, number));
+        if (knots && knots->size() >= 2)
+            read_knots(number, *knots, curve);
+        else
+            set_knots(number, curve);
+        use_whole_range(curve);
+        return curve;
+    }
+
+    /// Reads knots with their multiplicities, which may be as many as the curve has room for.
+    void read_knots(std::size_t number, std::span<const std::string_view> lists, SpaceCurve& curve) const {
+        const auto multiplicities = parts_of(inside(lists[0])), values = parts_of(inside(lists[1]));
+        if (multiplicities.size() != values.size())
+            refuse(number, "its knots and their multiplicities differ in number");
+        const std::size_t most = curve.control.size() + std::min(curve.degree, max_curve_degree) + 1;
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            const std::size_t times = drawn_count(multiplicities[i], file_, instance(number).line);
+            if (times > most || curve.knots.size() + times > most) refuse(number, "it has more knots than it can have");
+            curve.knots.insert(curve.knots.end(), times, this->number(values[i], number));
+        }
+    }
+
+    /// Sets the knots of curves whose kind says what they are.
+    void set_knots(std::size_t number, SpaceCurve& curve) const {
+        const std::size_t n = curve.control.size(), p = curve.degree;
+        if (p < 1 || p > max_curve_degree || n < p + 1) return;  // a defect, which add_curve() names
+        const bool is_bezier = find_parameters(number, "BEZIER_CURVE").has_value();
+        const bool is_uniform = find_parameters(number, "UNIFORM_CURVE").has_value();
+        for (std::size_t i = 0; i < n + p + 1; ++i) {
+            const double within = static_cast<double>(std::clamp(i, p, n) - p);
+            const double bezier_knot = std::ceil(within / static_cast<double>(p));
+            curve.knots.push_back(is_uniform ? static_cast<double>(i) : is_bezier ? bezier_knot : within);
+        }
+    }
+
+    // ---- edges -----------------------------------------------------------------------------------------------------
+
+    void add(std::size_t number, SpaceCurve curve) {
+        add_curve(drawing_, {std::move(curve), instance(number).line, {}}, fmt::format("STEP instance #{}", number),
+                  file_);
+    }
+
+    void leave_out(std::size_t number) {
+        ++drawing_.left_out[std::string(printable(instance(number).name().substr(0, 40)))];
+    }
+
+    void add_edge(std::size_t number) {
+        const auto list = parameters(number, "EDGE_CURVE", 5);
+        const Point3 a = vertex(reference(list[1], number)), b = vertex(reference(list[2], number));
+        const std::size_t curve = reference(list[3], number);
+        add_between(number, curve, a, b, list[4] != ".F.");
+    }
+
+    /// Adds the part of a curve from one point to another.
+    void add_between(std::size_t number, std::size_t curve, Point3 a, Point3 b, bool is_same_sense) {
+        std::optional<BasisCurve> known = basis(curve);
+        if (!known) return leave_out(curve);
+        if (known->is_line) return add(number, polyline({a, b}));
+        if (!is_same_sense) std::swap(a, b);
+        if (known->ellipse) return add_elliptic_arc(number, *known->ellipse, a, b);
+        SpaceCurve spline = *std::move(known->spline);
+        if (defect_of(spline).empty()) {
+            const double from = parameter_near(spline, a), to = parameter_near(spline, b);
+            if (from < to) {
+                spline.first = from;
+                spline.last = to;
+            }
+        }
+        add(number, std::move(spline));
+    }
+
+    void add_elliptic_arc(std::size_t number, const Frame3& ellipse, Point3 a, Point3 b) {
+        const double u = dot(ellipse.a, ellipse.a), v = dot(ellipse.b, ellipse.b);
+        if (!(u > 0 && v > 0)) refuse(number, "its circle has no radius");
+        const auto angle = [&](Point3 p) {
+            const Point3 arm = p - ellipse.origin;
+            return core::atan2_reproducible(dot(arm, ellipse.b) / v, dot(arm, ellipse.a) / u);
+        };
+        const double from = angle(a);
+        double sweep = angle(b) - from;
+        if (sweep <= 1e-9) sweep += 2 * core::pi;
+        add(number, elliptic_arc(ellipse.origin, ellipse.a, ellipse.b, from, sweep));
+    }
+
+    /// Returns the parameter of the point of a curve that is nearest to another one: an end of the curve where that is as
+    /// near as rounding.
+    static double parameter_near(const SpaceCurve& curve, Point3 p) {
+        constexpr std::size_t samples_of_piece = 8, rounds = 60;
+        constexpr double rounding = 1e-9;
+        const auto away = [&](double t) { return length(at(curve, t) - p); };
+        double size = 0;
+        for (const Point3& c : curve.control) size = std::max(size, length(c - curve.control[0]));
+        if (away(curve.first) <= rounding * size) return curve.first;
+        if (away(curve.last) <= rounding * size) return curve.last;
+        const auto steps = static_cast<double>(samples_of_piece * curve.control.size());
+        const double step = (curve.last - curve.first) / steps;
+        double best = curve.first;
+        for (double k = 0; k <= steps; ++k)
+            if (const double t = std::min(curve.first + k * step, curve.last); away(t) < away(best)) best = t;
+        double low = std::max(best - step, curve.first), high = std::min(best + step, curve.last);
+        for (std::size_t k = 0; k < rounds; ++k) {
+            const double third = (high - low) / 3;
+            (away(low + third) < away(high - third) ? high : low) =
+                away(low + third) < away(high - third) ? high - third : low + third;
+        }
+        return 0.5 * (low + high);
+    }
+
+    // ---- drawings without edges ------------------------------------------------------------------------------------
+
+    /// Returns the point of a trim "(#12,PARAMETER_VALUE(0.))"; nothing where it has none.
+    std::optional<Point3> trim_point(std::string_view trim, std::size_t user) const {
+        for (const std::string_view part : parts_of(inside(trim)))
+            if (part.starts_with('#')) return point(reference(part, user));
+        return std::nullopt;
+    }
+
+    void add_free_curves() {
+        std::set<std::size_t> trimmed_curves;
+        for (const std::size_t number : order_)
+            if (const auto list = trimmed_parameters(number)) trimmed_curves.insert(reference((*list)[1], number));
+        for (const std::size_t number : order_) {
+            if (trimmed_curves.contains(number)) continue;
+            if (const auto list = trimmed_parameters(number)) {
+                const auto a = trim_point((*list)[2], number), b = trim_point((*list)[3], number);
+                const auto known = basis(number);
+                if (a && b)
+                    add_between(number, reference((*list)[1], number), *a, *b, (*list)[4] != ".F.");
+                else if (known && known->spline)
+                    add(number, *known->spline);
+                else
+                    leave_out(number);
+                continue;
+            }
+            const std::string_view name = instance(number).name();
+            const bool is_free = name.empty() || name == "POLYLINE" || name == "B_SPLINE_CURVE_WITH_KNOTS" ||
+                                 name == "BEZIER_CURVE" || name == "QUASI_UNIFORM_CURVE" || name == "UNIFORM_CURVE";
+            if (name == "CIRCLE" || name == "ELLIPSE") {
+                const std::optional<BasisCurve> known = basis(number);
+                if (known && known->ellipse)
+                    add(number,
+                        elliptic_arc(known->ellipse->origin, known->ellipse->a, known->ellipse->b, 0, 2 * core::pi));
+            } else if (is_free) {
+                if (std::optional<SpaceCurve> spline = spline_of(number)) add(number, *std::move(spline));
+            }
+        }
+    }
+
+    std::optional<std::vector<std::string_view>> trimmed_parameters(std::size_t number) const {
+        if (instance(number).name() != "TRIMMED_CURVE") return std::nullopt;
+        return parameters(number, "TRIMMED_CURVE", 5);
+    }
+};
+
+}  // namespace
+
+Drawing read_step(std::string_view text, const std::string& file) { return StepReader(file).read(text); }
+
+}  // namespace lamina::geometry
