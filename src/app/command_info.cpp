@@ -22,6 +22,8 @@ void add_info_command(CLI::App& app) {
     auto surface = std::make_shared<std::map<std::string, std::string>>();
     for (const char* name : {"close", "mirror-half"})
         add_table_flag(*command, option_table<GeometryOptions>(), name, (*given)[name]);
+    for (const char* name : {"sharpen-te", "open-te"})
+        add_table_option(*command, option_table<GeometryOptions>(), name, (*given)[name]);
     auto transform = std::make_shared<std::vector<std::string>>();
     add_repeated_table_option(*command, option_table<GeometryOptions>(), "transform", *transform);
     for (const char* name : {"surface", "smooth", "spacing-max"})

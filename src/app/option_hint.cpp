@@ -106,7 +106,6 @@ constexpr OtherWord mesh_words[] = {
     {"nsrf", "surface-points"},
     {"numpoints", "surface-points"},
     {"panels", "surface-points"},
-    {"points", "surface-points"},
     {"repanel", "surface-points"},
     {"markers", "names"},
     {"tags", "names"},

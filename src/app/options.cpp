@@ -158,7 +158,8 @@ bool is_given(const MeshCase& mesh_case, const std::string& name) {
 void require_consistent(const MeshCase& mesh_case) {
     require_consistent(mesh_options(), mesh_case.given);
     if (mesh_case.options.surface.treatment == SurfaceTreatment::keep)
-        for (const std::string name : {"surface-points", "exact-points", "spacing-le", "spacing-te", "spacing-max"})
+        for (const std::string name :
+             {"surface-points", "exact-points", "points", "spacing-le", "spacing-te", "spacing-at", "spacing-max"})
             if (is_given(mesh_case, name))
                 throw UsageError(name + " asks for new points, and surface keep for the given ones: give one of them");
     validate(mesh_case.options);

@@ -172,17 +172,16 @@ std::optional<std::vector<RawOutline>> read_drawing(std::string_view text, const
     if (format == formats.end()) return std::nullopt;
     if (format->read == nullptr) refuse(*format, "", file);
     if (text.starts_with("AutoCAD Binary")) refuse(*format, " in binary form", file);
-    Drawing drawing = format->read(text, file);
+    const Drawing drawing = format->read(text, file);
     const std::string left_out = list_of(drawing.left_out);
     if (drawing.curves.empty())
         refuse(*format, " without curves that lamina reads" + (left_out.empty() ? "" : " (" + left_out + ")"), file);
     std::vector<std::string> notes;
     if (!left_out.empty()) notes.push_back("left out of the drawing: " + left_out);
-    const std::string unit = drawing.unit;
-    std::vector<RawOutline> outlines = outlines_of_drawing(std::move(drawing), file, keep_open, notes);
+    std::vector<RawOutline> outlines = outlines_of_drawing(drawing, file, keep_open, notes);
     for (RawOutline& outline : outlines) {
         outline.format = format->short_name;
-        outline.unit = unit;
+        outline.unit = drawing.unit;
     }
     outlines[0].notes.insert(outlines[0].notes.begin(), notes.begin(), notes.end());
     return outlines;

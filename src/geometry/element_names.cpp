@@ -1,5 +1,4 @@
 #include "geometry/element_names.hpp"
-#include "core/marker_names.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -14,9 +13,17 @@
 #include <lamina/files.hpp>
 #include <lamina/marker_names.hpp>
 
+#include "core/marker_names.hpp"
+#include "core/option_builders.hpp"
+
 namespace lamina::geometry {
 
 namespace {
+
+/// The name that stands for all elements in an option.
+constexpr const char* every_element = "all";
+
+bool is_named(const Element& e, const std::string& name) { return e.name == name || e.given_name == name; }
 
 /// Returns the stem of the element's file, "naca" and its digits, or the name that standard input has.
 std::string base_name(const Element& element) {
@@ -78,6 +85,22 @@ void name_elements(std::vector<Element>& elements, const GeometryOptions& option
         if (element.name != element.given_name)
             element.warnings.push_back(core::renamed_marker_warning(markers[i], element.name));
     }
+}
+
+bool stands_for(const std::string& name, const Element& element) {
+    return name == every_element || is_named(element, name);
+}
+
+void require_known_element(const Geometry& geometry, const std::string& name, const std::string& key) {
+    std::vector<std::string> names{std::string(every_element)};
+    bool is_known = name == every_element;
+    for (const Element& e : geometry.elements) {
+        names.push_back(e.name);
+        is_known = is_known || is_named(e, name);
+    }
+    if (!is_known) throw OptionError(key, "element " + unknown_choice(name, names));
+    if (name == every_element && names.size() > 2 && std::count(names.begin(), names.end(), name) > 1)
+        throw OptionError(key, fmt::format("'{}' means every element, and one has this name: give --names", name));
 }
 
 }  // namespace lamina::geometry

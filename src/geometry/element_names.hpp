@@ -16,4 +16,11 @@ inline constexpr std::string_view naca_prefix = "naca:";
 /// and for repeated names.
 void name_elements(std::vector<Element>& elements, const GeometryOptions& options);
 
+/// Returns whether the name in an option stands for an element: its name, also as it was given, or "all".
+bool stands_for(const std::string& name, const Element& element);
+
+/// Throws OptionError, of the option with this key, for a name that stands for no element, and for "all" where one of
+/// several has that name.
+void require_known_element(const Geometry& geometry, const std::string& name, const std::string& key);
+
 }  // namespace lamina::geometry

@@ -9,16 +9,13 @@
 #include <fmt/format.h>
 
 #include "core/angles.hpp"
-#include "core/option_builders.hpp"
+#include "geometry/element_names.hpp"
 #include "geometry/plain_flap.hpp"
 #include "geometry/source_point.hpp"
 
 namespace lamina::geometry {
 
 namespace {
-
-/// The name that stands for all elements in a transformation.
-constexpr const char* every_element = "all";
 
 /// Moves the points of an element and the places of its warnings.
 template <class Map>
@@ -94,22 +91,6 @@ struct Change {
     }
 };
 
-/// Returns whether an element has this name, or was given it.
-bool is_named(const Element& e, const std::string& name) { return e.name == name || e.given_name == name; }
-
-void require_known_element(const Geometry& geometry, const std::string& name) {
-    std::vector<std::string> names{std::string(every_element)};
-    bool is_known = name == every_element;
-    for (const Element& e : geometry.elements) {
-        names.push_back(e.name);
-        is_known = is_known || is_named(e, name);
-    }
-    if (!is_known) throw OptionError("transform", "element " + unknown_choice(name, names));
-    if (name == every_element && names.size() > 2 && std::count(names.begin(), names.end(), name) > 1)
-        throw OptionError("transform",
-                          fmt::format("'{}' means every element, and one has this name: give --names", name));
-}
-
 }  // namespace
 
 }  // namespace lamina::geometry
@@ -121,9 +102,9 @@ using namespace geometry;
 Geometry transformed(Geometry geometry, std::span<const Transformation> transformations) {
     for (const Transformation& transformation : transformations) {
         validate(transformation);
-        require_known_element(geometry, transformation.element);
+        require_known_element(geometry, transformation.element, "transform");
         for (Element& e : geometry.elements)
-            if (transformation.element == every_element || is_named(e, transformation.element))
+            if (stands_for(transformation.element, e))
                 e.transformations.push_back(std::visit(Change{e}, transformation.change));
     }
     return geometry;

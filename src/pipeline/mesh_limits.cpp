@@ -78,12 +78,17 @@ BorderForecast forecast_border(const Geometry& walls, std::size_t element, const
 }  // namespace
 
 void require_surface_points_within(const SurfaceOptions& options, std::size_t elements, const WorkBudget& budget) {
-    if (!options.points || options.treatment == SurfaceTreatment::keep) return;
-    const auto edges = static_cast<double>(elements) * static_cast<double>(*options.points);
+    if ((!options.points && !options.side_edges) || options.treatment == SurfaceTreatment::keep) return;
+    const std::size_t points =
+        options.side_edges ? options.side_edges->upper + options.side_edges->lower : *options.points;
+    const auto edges = static_cast<double>(elements) * static_cast<double>(points);
     RunEstimate estimate = estimate_run(edges, budget.cost, thread_count(), seconds_per_border_edge * edges);
     estimate.memory_bytes += bytes_per_border_edge * edges;
-    require_within(budget.limits, estimate, options.exact_points ? "exact_points" : "surface_points",
-                   std::to_string(*options.points));
+    require_within(budget.limits, estimate,
+                   options.side_edges     ? "points"
+                   : options.exact_points ? "exact_points"
+                                          : "surface_points",
+                   std::to_string(points));
 }
 
 void require_layers_within(const layers::LayerGrowth& growth, const Geometry& walls, const WorkBudget& budget) {

@@ -45,6 +45,27 @@ void summarize_cells(const layers::Layer& layer, const layers::LayerCells& cells
     record_columns(layer, cells, result);
 }
 
+/// Says for walls that are to keep the given points how many the mesh has beside them, and why.
+void note_added_points(const layers::Layer& layer, double max_ray_angle_deg, std::vector<Element>& elements) {
+    for (std::size_t e = 0; e < elements.size(); ++e) {
+        Element& element = elements[e];
+        if (element.is_mirrored) continue;
+        const std::size_t given = element.points.size(), rays = layer.walls[e].size() - given,
+                          divided = layer.edges.walls[e].size() - layer.walls[e].size();
+        if (rays > 0)
+            element.surface_notes.push_back(
+                fmt::format("{} points added by refining rays, where the wall turns by more than {:g} degrees from one "
+                            "point to the next (--max-ray-angle)",
+                            rays, max_ray_angle_deg));
+        if (divided > 0)
+            element.surface_notes.push_back(
+                fmt::format("{} points added on edges without layers, which are longer than the triangles there "
+                            "(--gradation)",
+                            divided));
+        if (rays + divided == 0) element.surface_notes.emplace_back("no points added");
+    }
+}
+
 /// Records what is known of a layer before it is filled.
 void summarize_layer(const FittedLayer& fitted, const layers::Layer& layer, const LayerOptions& options,
                      MeshResult& result) {
@@ -119,6 +140,8 @@ MadeMesh make_mesh(const FittedLayer& fitted, const CaseOptions& options, MeshDr
     MeshResult& result = made.result;
     const layers::Layer layer = close_border(fitted);
     summarize_layer(fitted, layer, options.layer, result);
+    if (options.surface.treatment == SurfaceTreatment::keep)
+        note_added_points(layer, options.layer.max_ray_angle_deg, result.geometry.elements);
     made.constraints = layer.edges.interfaces;
     clock.end(&StageSeconds::layers);
 

@@ -95,7 +95,7 @@ OptionTable<CaseOptions> option_rows() {
     add_stage(&CaseOptions::refine, table);
     for (const Option<CaseOptions>& option : pipeline_rows()) add_row(option, table);
     for (Option<CaseOptions>& option : table) {
-        if (option.name != "exact-points") continue;
+        if (option.name != "exact-points" && option.name != "points") continue;
         // Walls that are alike by number have rays that are.
         option.set = [set_points = option.set](CaseOptions& options, const OptionValue& value) {
             set_points(options, value);

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/reproducible_math.hpp"
+#include "geometry/element_names.hpp"
 #include "surface/corners.hpp"
 #include "surface/noise.hpp"
 
@@ -276,8 +277,13 @@ Decision decide(const Element& e, std::size_t index, const ResamplingRequest& re
     if (options.points)
         return all(EdgeTreatment::spline, fmt::format("{} {} points are requested",
                                                       options.exact_points ? "exactly" : "about", *options.points));
+    if (options.side_edges)
+        return all(EdgeTreatment::spline, fmt::format("{} edges on the upper and {} on the lower side are requested",
+                                                      options.side_edges->upper, options.side_edges->lower));
     if (options.treatment == SurfaceTreatment::resample) return all(EdgeTreatment::spline, "as requested");
-    if (options.leading_edge_spacing || options.trailing_edge_spacing)
+    const bool has_station = std::any_of(options.station_spacings.begin(), options.station_spacings.end(),
+                                         [&](const StationSpacing& s) { return geometry::stands_for(s.element, e); });
+    if (options.leading_edge_spacing || options.trailing_edge_spacing || has_station)
         return all(EdgeTreatment::spline, "a spacing is requested");
     if (e.samples_of_curve)
         return all(EdgeTreatment::spline, e.format == "naca"     ? "its formula is known"

@@ -12,10 +12,10 @@
 #include "core/bounding_box.hpp"
 #include "core/reproducible_math.hpp"
 #include "geometry/sharp_corner.hpp"
+#include "geometry/trailing_edge.hpp"
 #include "surface/corners.hpp"
 #include "surface/notes.hpp"
 #include "surface/summary.hpp"
-#include "geometry/trailing_edge.hpp"
 
 namespace lamina::surface {
 

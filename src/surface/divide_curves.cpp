@@ -105,11 +105,6 @@ struct DivisionPlan {
     }
 };
 
-/// Returns the least number of edges of a curve that is not kept. An outline has at least three edges.
-std::size_t least_edges_of_curve(std::span<const OutlineCurve> curves) {
-    return curves.size() == 1 ? 3 : curves.size() == 2 ? 2 : 1;
-}
-
 /// Plans the edges of the curves: as many as their spacings ask for, or those of `edges`, one number for each curve.
 DivisionPlan make_plan(std::span<const OutlineCurve> curves, SampledOutline outline, const SpacingRule& rule,
                        std::span<const double> edges = {}) {
@@ -190,12 +185,13 @@ DividedCurves place_all_points(std::span<const OutlineCurve> curves, const Divis
     return result;
 }
 
-/// Returns the samples with the spacings of curves that are not kept multiplied by a factor.
-SampledOutline scaled(const SampledOutline& outline, std::span<const OutlineCurve> curves, double factor) {
+/// Returns the samples with the spacings of curves that are not kept multiplied by a factor, one for each curve.
+SampledOutline scaled(const SampledOutline& outline, std::span<const OutlineCurve> curves,
+                      std::span<const double> factors) {
     SampledOutline result = outline;
     for (std::size_t i = 0; i < curves.size(); ++i) {
         if (curves[i].is_kept) continue;
-        for (CurveSample& sample : result.samples[i]) sample.spacing *= factor;
+        for (CurveSample& sample : result.samples[i]) sample.spacing *= factors[i];
     }
     return result;
 }
@@ -211,36 +207,34 @@ std::vector<double> graded_integrals(SampledOutline outline, std::span<const Out
     return integrals;
 }
 
-double sum_of(std::span<const double> values) { return std::accumulate(values.begin(), values.end(), 0.0); }
+double sum_of(std::span<const double> values, const CurveGroup& group) {
+    return std::accumulate(group.curves.begin(), group.curves.end(), 0.0,
+                           [&](double sum, std::size_t i) { return sum + values[i]; });
+}
 
-/// Returns whole numbers of edges in proportion to the integrals, `edges` together: each curve that is not kept gets the
-/// whole part of its share, at least min_edges, and those with the largest remainders one more (of equal ones the first).
-std::vector<double> shared_out(std::span<const double> integrals, std::span<const OutlineCurve> curves, double edges,
-                               double min_edges) {
-    std::vector<double> counts(integrals.begin(), integrals.end()), remainders(integrals.size(), -HUGE_VAL);
-    double kept = 0;
-    for (std::size_t i = 0; i < curves.size(); ++i)
-        if (curves[i].is_kept) kept += integrals[i];
-    const double scale = (edges - kept) / (sum_of(integrals) - kept);
-    for (std::size_t i = 0; i < curves.size(); ++i) {
-        if (curves[i].is_kept) continue;
+/// Sets whole numbers of edges of the curves of a group in proportion to their integrals: each gets the whole part of its
+/// share, at least min_edges, and those with the largest remainders one more (of equal ones the first).
+void share_out(const CurveGroup& group, std::span<const double> integrals, double min_edges,
+               std::vector<double>& counts) {
+    std::vector<double> remainders(integrals.size(), -HUGE_VAL);
+    const double scale = static_cast<double>(group.edges) / sum_of(integrals, group);
+    for (const std::size_t i : group.curves) {
         counts[i] = std::max(std::floor(scale * integrals[i]), min_edges);
         remainders[i] = scale * integrals[i] - counts[i];
     }
     // Short curves that have min_edges take edges from the others, where the sum is too large.
-    for (double left = edges - sum_of(counts); left != 0;) {
+    for (double left = static_cast<double>(group.edges) - sum_of(counts, group); left != 0;) {
         const double step = left > 0 ? 1 : -1;
-        std::size_t best = curves.size();
-        for (std::size_t i = 0; i < curves.size(); ++i) {
-            if (curves[i].is_kept || counts[i] + step < min_edges) continue;
-            if (best == curves.size() || step * remainders[i] > step * remainders[best]) best = i;
+        std::size_t best = integrals.size();
+        for (const std::size_t i : group.curves) {
+            if (counts[i] + step < min_edges) continue;
+            if (best == integrals.size() || step * remainders[i] > step * remainders[best]) best = i;
         }
-        assert(best < curves.size());
+        assert(best < integrals.size());
         counts[best] += step;
         remainders[best] -= step;
         left -= step;
     }
-    return counts;
 }
 
 }  // namespace
@@ -259,10 +253,8 @@ std::vector<std::vector<double>> edges_of_pieces(std::span<const OutlineCurve> c
     return edges;
 }
 
-std::size_t least_edges(std::span<const OutlineCurve> curves) {
-    std::size_t sum = 0;
-    for (const OutlineCurve& curve : curves) sum += curve.is_kept ? curve.kept_edges : least_edges_of_curve(curves);
-    return sum;
+std::size_t least_edges_of_curve(std::span<const OutlineCurve> curves) {
+    return curves.size() == 1 ? 3 : curves.size() == 2 ? 2 : 1;
 }
 
 DividedCurves divide_curves(std::span<const OutlineCurve> curves, const SpacingRule& rule, SampledCurves& known) {
@@ -273,7 +265,9 @@ DividedCurves divide_curves_into(std::span<const OutlineCurve> curves, const Spa
                                  std::size_t edges) {
     constexpr int max_doublings = 40, max_bisections = 30;
     const SampledOutline outline = sample_spacings(curves, rule, known);
-    const auto scaled_plan = [&](double factor) { return make_plan(curves, scaled(outline, curves, factor), rule); };
+    const auto scaled_plan = [&](double factor) {
+        return make_plan(curves, scaled(outline, curves, std::vector(curves.size(), factor)), rule);
+    };
     const auto target = static_cast<double>(edges);
     double coarse = 1, fine = 1;  // factors of too few and of too many edges
     for (int k = 0; k < max_doublings && scaled_plan(coarse).edges() > target; ++k) coarse *= 2;
@@ -289,24 +283,36 @@ DividedCurves divide_curves_into(std::span<const OutlineCurve> curves, const Spa
 }
 
 DividedCurves divide_curves_exactly(std::span<const OutlineCurve> curves, const SpacingRule& rule, SampledCurves& known,
-                                    std::size_t edges) {
+                                    std::span<const CurveGroup> groups) {
     constexpr int max_doublings = 40, max_bisections = 40;
     const SampledOutline outline = sample_spacings(curves, rule, known);
-    const auto integrals = [&](double factor) {
-        return graded_integrals(scaled(outline, curves, factor), curves, rule.gradation);
+    std::vector<double> factors(curves.size(), 1.0);
+    const auto integrals = [&] { return graded_integrals(scaled(outline, curves, factors), curves, rule.gradation); };
+    const auto edges_with = [&](const CurveGroup& group, double factor) {
+        for (const std::size_t i : group.curves) factors[i] = factor;
+        return sum_of(integrals(), group);
     };
-    const auto target = static_cast<double>(edges);
-    double coarse = 1, fine = 1;
-    for (int k = 0; k < max_doublings && sum_of(integrals(coarse)) > target; ++k) coarse *= 2;
-    for (int k = 0; k < max_doublings && sum_of(integrals(fine)) < target; ++k) fine *= 0.5;
-    for (int k = 0; k < max_bisections; ++k) {
-        const double middle = 0.5 * (coarse + fine);
-        (sum_of(integrals(middle)) > target ? fine : coarse) = middle;
-    }
     // Where the growth of the spacing keeps the sum above the target, however large the factor, the shares remain.
-    const std::vector<double> counts =
-        shared_out(integrals(coarse), curves, target, static_cast<double>(least_edges_of_curve(curves)));
-    return place_all_points(curves, make_plan(curves, scaled(outline, curves, coarse), rule, counts));
+    const auto fit = [&](const CurveGroup& group) {
+        const auto target = static_cast<double>(group.edges);
+        double coarse = 1, fine = 1;
+        for (int k = 0; k < max_doublings && edges_with(group, coarse) > target; ++k) coarse *= 2;
+        for (int k = 0; k < max_doublings && edges_with(group, fine) < target; ++k) fine *= 0.5;
+        for (int k = 0; k < max_bisections; ++k) {
+            const double middle = 0.5 * (coarse + fine);
+            (edges_with(group, middle) > target ? fine : coarse) = middle;
+        }
+        edges_with(group, coarse);
+    };
+    // Finer curves of one group bound the growth of the spacing on those of another one.
+    const int rounds = groups.size() > 1 ? 3 : 1;
+    for (int round = 0; round < rounds; ++round)
+        for (const CurveGroup& group : groups) fit(group);
+    const std::vector<double> sums = integrals();
+    std::vector<double> counts = sums;
+    for (const CurveGroup& group : groups)
+        share_out(group, sums, static_cast<double>(least_edges_of_curve(curves)), counts);
+    return place_all_points(curves, make_plan(curves, scaled(outline, curves, factors), rule, counts));
 }
 
 }  // namespace lamina::surface

@@ -34,13 +34,20 @@ DividedCurves divide_curves_into(std::span<const OutlineCurve> curves, const Spa
 std::vector<std::vector<double>> edges_of_pieces(std::span<const OutlineCurve> curves, const SpacingRule& rule,
                                                  SampledCurves& known);
 
-/// Returns the least number of edges that divide_curves_exactly() can divide curves into.
-std::size_t least_edges(std::span<const OutlineCurve> curves);
+/// Returns the least number of edges of a curve that is not kept. An outline has at least three edges.
+std::size_t least_edges_of_curve(std::span<const OutlineCurve> curves);
 
-/// Divides curves likewise, but into exactly so many edges: all spacings are scaled so that the integrals of ds / spacing
-/// amount to that number, and each curve that is not kept gets the whole number of edges nearest to its integral, odd
-/// or even, of which the largest remainders take what is left. Precondition: edges >= least_edges(curves).
+/// Curves that get a number of edges together.
+struct CurveGroup {
+    std::vector<std::size_t> curves;  ///< their numbers; none is kept
+    std::size_t edges = 0;
+};
+
+/// Divides curves likewise, but into exactly so many edges in each group: its spacings are scaled so that the integrals
+/// of ds / spacing amount to that number, and each curve gets the whole number of edges nearest to its integral, odd or
+/// even, of which the largest remainders take what is left. Precondition: each curve that is not kept is in one group,
+/// and each group has least_edges_of_curve() for each of its curves.
 DividedCurves divide_curves_exactly(std::span<const OutlineCurve> curves, const SpacingRule& rule, SampledCurves& known,
-                                    std::size_t edges);
+                                    std::span<const CurveGroup> groups);
 
 }  // namespace lamina::surface

@@ -1,6 +1,11 @@
 // The table of the options of the stage "prepare".
 #include <lamina/surface.hpp>
 
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
 #include "core/option_rows.hpp"
 #include "core/text.hpp"
 
@@ -9,24 +14,36 @@ namespace lamina {
 namespace {
 
 constexpr OptionRange point_numbers = numbers_from_to(3, 1e7), base_edge_numbers = numbers_from_to(1, 1e6);
-constexpr const char* exact_key = "exact_points";
+constexpr OptionRange side_edge_numbers = numbers_from_to(1, 1e6), stations = numbers_from_to(0, 1);
+constexpr const char *exact_key = "exact_points", *sides_key = "points", *station_key = "spacing_at";
 
-void set_exact_points(SurfaceOptions& options, const OptionValue& value) {
-    const std::string text = as_word_or_number(value, exact_key);
+/// Returns two or three whole numbers that colons divide; nothing for other texts.
+std::vector<std::int64_t> counts_of(const std::string& text, const char* key) {
     std::vector<std::int64_t> numbers;
     try {
-        for (const double number : core::parse_numbers(text, ':')) numbers.push_back(as_count(number, exact_key));
+        for (const double number : core::parse_numbers(text, ':')) numbers.push_back(as_count(number, key));
     } catch (const UsageError&) {
         numbers.clear();
     }
+    return numbers;
+}
+
+void set_base_edges(SurfaceOptions& options, std::span<const std::int64_t> number, const char* key) {
+    options.base_edges.reset();
+    if (number.empty()) return;
+    require_in_range(base_edge_numbers, static_cast<double>(number[0]), key);
+    options.base_edges = static_cast<std::size_t>(number[0]);
+}
+
+void set_exact_points(SurfaceOptions& options, const OptionValue& value) {
+    const std::string text = as_word_or_number(value, exact_key);
+    const std::vector<std::int64_t> numbers = counts_of(text, exact_key);
     if (numbers.empty() || numbers.size() > 2)
         throw OptionError(exact_key, "'" + text + "': it is N or N:BASE, whole numbers");
     require_in_range(point_numbers, static_cast<double>(numbers[0]), exact_key);
-    if (numbers.size() > 1) require_in_range(base_edge_numbers, static_cast<double>(numbers[1]), exact_key);
+    set_base_edges(options, std::span(numbers).subspan(1), exact_key);
     options.exact_points = true;
     options.points = static_cast<std::size_t>(numbers[0]);
-    options.base_edges.reset();
-    if (numbers.size() > 1) options.base_edges = static_cast<std::size_t>(numbers[1]);
 }
 
 std::optional<OptionValue> exact_points_text(const SurfaceOptions& options) {
@@ -36,7 +53,46 @@ std::optional<OptionValue> exact_points_text(const SurfaceOptions& options) {
     return text;
 }
 
-/// Adds the options of the number of points: about one, or one exactly.
+void set_side_edges(SurfaceOptions& options, const OptionValue& value) {
+    const std::string text = as_word_or_number(value, sides_key);
+    const std::vector<std::int64_t> numbers = counts_of(text, sides_key);
+    if (numbers.size() < 2 || numbers.size() > 3)
+        throw OptionError(sides_key, "'" + text + "': it is UPPER:LOWER or UPPER:LOWER:BASE, whole numbers");
+    for (const std::int64_t number : {numbers[0], numbers[1]})
+        require_in_range(side_edge_numbers, static_cast<double>(number), sides_key);
+    set_base_edges(options, std::span(numbers).subspan(2), sides_key);
+    options.side_edges = SideEdges{static_cast<std::size_t>(numbers[0]), static_cast<std::size_t>(numbers[1])};
+}
+
+std::optional<OptionValue> side_edges_text(const SurfaceOptions& options) {
+    if (!options.side_edges) return std::nullopt;
+    std::string text = core::concat(options.side_edges->upper, ":", options.side_edges->lower);
+    if (options.base_edges) text += ":" + core::to_text(*options.base_edges);
+    return text;
+}
+
+/// Reads "ELEMENT[:upper|:lower]:X=SHARE".
+StationSpacing parse_station(const std::string& text) {
+    constexpr const char* grammar = "a spacing at a station is ELEMENT:X=SHARE, or ELEMENT:upper:X=SHARE (lower)";
+    const std::size_t equals = text.rfind('=');
+    std::vector<std::string> parts = core::split(text.substr(0, equals), ':');
+    core::require_text(equals != std::string::npos && (parts.size() == 2 || parts.size() == 3) && !parts[0].empty(),
+                       text, grammar);
+    StationSpacing result{parts[0], SurfaceSide::both, core::parse_number(parts.back()),
+                          core::parse_number(text.substr(equals + 1))};
+    if (parts.size() == 3) {
+        core::require_text(parts[1] == "upper" || parts[1] == "lower", text, grammar);
+        result.side = parts[1] == "upper" ? SurfaceSide::upper : SurfaceSide::lower;
+    }
+    return result;
+}
+
+std::string station_text(const StationSpacing& s) {
+    const char* side = s.side == SurfaceSide::upper ? "upper:" : s.side == SurfaceSide::lower ? "lower:" : "";
+    return core::concat(s.element, ":", side, s.station, "=", s.spacing);
+}
+
+/// Adds the options of the number of points: about one, or one exactly, of the whole outline or of its sides.
 void add_numbers_of_points(OptionTableBuilder<SurfaceOptions>& table) {
     Option<SurfaceOptions>& about =
         table.count("surface-points", "N", "wall vertices per element, about; else as many as the ray angle requires",
@@ -49,6 +105,13 @@ void add_numbers_of_points(OptionTableBuilder<SurfaceOptions>& table) {
               "each vertex, but at sharp corners a fan with the rays of half a turn, max-ray-angle apart",
               point_numbers.text(), set_exact_points, exact_points_text})
         .excludes = {"surface-points"};
+    table
+        .add({"points", OptionKind::word, "UPPER:LOWER[:BASE]",
+              "exactly so many wall edges on both sides of each element, from the trailing to the leading edge, or "
+              "there "
+              "is no mesh; BASE edges on the base of a blunt trailing edge (one for 50 of the others)",
+              side_edge_numbers.text(), set_side_edges, side_edges_text})
+        .excludes = {"surface-points", "exact-points"};
 }
 
 }  // namespace
@@ -73,6 +136,12 @@ OptionTable<SurfaceOptions> option_rows() {
                  "wall spacing at the trailing edge, in lengths of the element; makes auto resample; else as the layer "
                  "asks, about 0.001",
                  positive_numbers, at(&SurfaceOptions::trailing_edge_spacing));
+    table.specs(
+        "spacing-at", "ELEMENT:X=SHARE",
+        "wall spacing at a station of an element, given by its name, or of all, at most: X is 0 at the leading and "
+        "1 at the trailing edge, SHARE in lengths of the element; ELEMENT:upper:X=SHARE is on one side (lower) "
+        "alone; makes auto resample; may be given several times",
+        parse_station, station_text, at(&SurfaceOptions::station_spacings));
     table.number("spacing-max", "SHARE", "largest wall spacing, in lengths of the element", positive_numbers,
                  at(&SurfaceOptions::max_spacing));
     table.length("smooth", "TOL", "smooth the points first; none moves by more than this", positive_numbers,
@@ -100,10 +169,16 @@ template LAMINA_EXPORT const OptionTable<SurfaceOptions>& option_table();
 
 void validate(const SurfaceOptions& options) {
     require_in_range(option_table<SurfaceOptions>(), options);
-    if (!options.exact_points) return;
-    if (!options.points) throw OptionError(exact_key, "needs a number of points");
-    if (options.treatment == SurfaceTreatment::keep)
-        throw OptionError(exact_key, "needs new points: surface must be auto or resample");
+    for (const StationSpacing& station : options.station_spacings) {
+        require_in_range(stations, station.station, station_key);
+        require_in_range(positive_numbers, station.spacing, station_key);
+    }
+    if (options.side_edges && options.points)
+        throw OptionError(sides_key, "excludes a number of points of the outline");
+    if (options.exact_points && !options.points) throw OptionError(exact_key, "needs a number of points");
+    if ((options.exact_points || options.side_edges) && options.treatment == SurfaceTreatment::keep)
+        throw OptionError(options.side_edges ? sides_key : exact_key,
+                          "needs new points: surface must be auto or resample");
 }
 
 }  // namespace lamina

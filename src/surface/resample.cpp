@@ -17,6 +17,7 @@
 #include "core/reproducible_math.hpp"
 #include "core/segments.hpp"
 #include "core/tight_box.hpp"
+#include "geometry/element_names.hpp"
 #include "geometry/trailing_edge.hpp"
 #include "surface/corners.hpp"
 #include "surface/decision.hpp"
@@ -182,6 +183,12 @@ void append_curves(const Stretch& stretch, std::span<const EdgeTreatment> treatm
 /// leading edge, two points that are as far from the trailing edge as each other.
 struct ChordEnds {
     std::vector<Point> leading, trailing;
+    /// Numbers of vertices of the outline: where the upper side starts, the leading edge, and where the lower side ends.
+    std::size_t start = 0, nose = 0, end = 0;
+    Point trailing_edge;
+
+    /// Returns whether an edge, by its first vertex, is one of the upper side.
+    bool is_upper(std::size_t edge, std::size_t n) const { return (edge + n - start) % n < (nose + n - start) % n; }
 };
 
 ChordEnds find_chord_ends(std::span<const Point> outline) {
@@ -189,20 +196,50 @@ ChordEnds find_chord_ends(std::span<const Point> outline) {
     OutlineFeatures features;
     geometry::find_trailing_edge(outline, features);
     ChordEnds ends;
-    double farthest = 0;
-    for (Point p : outline) {
-        farthest = std::max(farthest, distance(p, features.trailing_edge));
-        if (p == features.trailing_edge) ends.trailing = {p};
+    ends.trailing_edge = features.trailing_edge;
+    const auto corner = std::find(outline.begin(), outline.end(), features.trailing_edge);
+    ends.start = ends.end = static_cast<std::size_t>(corner - outline.begin());
+    if (features.base &&
+        features.trailing_edge == midpoint(outline[features.base->first], outline[features.base->last])) {
+        ends.start = features.base->last;
+        ends.end = features.base->first;
+        ends.trailing = {outline[ends.end], outline[ends.start]};
+    } else {
+        ends.trailing = {*corner};
     }
-    if (ends.trailing.empty() && features.base)
-        ends.trailing = {outline[features.base->first], outline[features.base->last]};
-    for (Point p : outline)
-        if (distance(p, features.trailing_edge) >= (1 - rounding) * farthest) ends.leading.push_back(p);
+    double farthest = 0;
+    for (const Point p : outline) farthest = std::max(farthest, distance(p, features.trailing_edge));
+    for (std::size_t i = outline.size(); i-- > 0;) {
+        if (distance(outline[i], features.trailing_edge) < (1 - rounding) * farthest) continue;
+        ends.leading.push_back(outline[i]);
+        ends.nose = i;
+    }
+    std::reverse(ends.leading.begin(), ends.leading.end());
     return ends;
 }
 
+/// Adds the bounds that options set at stations of an element.
+void add_station_bounds(SpacingRule& rule, const Element& given, const SurfaceOptions& options, const ChordEnds& ends,
+                        double scale) {
+    const std::vector<Point>& p = given.points;
+    const std::size_t n = p.size();
+    const Point chord = ends.trailing_edge - p[ends.nose];
+    const auto station = [&](Point q) { return dot(q - p[ends.nose], chord) / squared_length(chord); };
+    for (const StationSpacing& wanted : options.station_spacings) {
+        if (!geometry::stands_for(wanted.element, given)) continue;
+        for (std::size_t i = 0; i < n; ++i) {
+            const SurfaceSide side = ends.is_upper(i, n) ? SurfaceSide::upper : SurfaceSide::lower;
+            if (wanted.side != SurfaceSide::both && wanted.side != side) continue;
+            const Point a = p[i], b = p[(i + 1) % n];
+            const double from = station(a) - wanted.station, to = station(b) - wanted.station;
+            if (from == to || from * to > 0) continue;
+            rule.point_spacings.push_back({a + from / (from - to) * (b - a), wanted.spacing * scale});
+        }
+    }
+}
+
 SpacingRule make_spacing_rule(const ResamplingRequest& request, const ChordEnds& ends, double scale,
-                              std::size_t element) {
+                              std::size_t element, const Element& given) {
     const SurfaceOptions& options = request.options;
     // The bound on turning holds for the mean over two edges, of which gradation makes one longer.
     constexpr double turning_share = 0.85;
@@ -230,13 +267,16 @@ SpacingRule make_spacing_rule(const ResamplingRequest& request, const ChordEnds&
     };
     add_bounds(ends.leading, options.leading_edge_spacing);
     add_bounds(ends.trailing, options.trailing_edge_spacing);
+    add_station_bounds(rule, given, options, ends, scale);
     return rule;
 }
 
 /// Returns the number of edges of bases where the number of points is exact.
 std::size_t base_edges(const SurfaceOptions& options) {
     constexpr std::size_t points_per_edge = 50;
-    const std::size_t share = (*options.points + points_per_edge / 2) / points_per_edge;
+    const std::size_t points =
+        options.side_edges ? options.side_edges->upper + options.side_edges->lower : *options.points;
+    const std::size_t share = (points + points_per_edge / 2) / points_per_edge;
     return options.base_edges.value_or(std::max<std::size_t>(1, share));
 }
 
@@ -255,17 +295,87 @@ void fix_base(OutlineCurves& curves, const Element& given, std::size_t edges) {
     }
 }
 
-/// Divides the curves into the number of edges that the options ask for. Throws OptionError for an exact number that is
+/// Divides the curve through the leading edge there, so that each side has curves of its own.
+void divide_at_leading_edge(OutlineCurves& curves, const Element& given, const ChordEnds& ends) {
+    const Point nose = given.points[ends.nose];
+    std::size_t curve = 0, knot = 0;
+    double nearest = HUGE_VAL;
+    for (std::size_t c = 0; c < curves.curves.size(); ++c)
+        for (std::size_t k = 0; k < curves.knots[c].size(); ++k)
+            if (const double d = distance(given.points[curves.knots[c][k]], nose); d < nearest) {
+                nearest = d;
+                curve = c;
+                knot = k;
+            }
+    std::vector<std::size_t>& knots = curves.knots[curve];
+    if (knot == 0 || knot + 1 == knots.size()) return;
+    const auto at = [](auto& list, std::size_t i) { return list.begin() + static_cast<std::ptrdiff_t>(i); };
+    const std::vector<std::size_t> behind(at(knots, knot), knots.end());
+    OutlineCurve second = curves.curves[curve];
+    second.curve = second.curve.part(knot, behind.size() - 1);
+    second.start_spacing = HUGE_VAL;
+    curves.curves[curve].curve = curves.curves[curve].curve.part(0, knot);
+    knots.erase(at(knots, knot + 1), knots.end());
+    curves.curves.insert(at(curves.curves, curve + 1), std::move(second));
+    curves.knots.insert(at(curves.knots, curve + 1), behind);
+    curves.starts_at_corner.insert(at(curves.starts_at_corner, curve + 1), false);
+}
+
+/// Returns the curves of the upper and the lower side with their numbers of edges. Throws OptionError where the trailing
+/// edge is no corner, or a side has more curves than edges.
+std::vector<CurveGroup> sides_of(const OutlineCurves& curves, const Element& given, const ChordEnds& ends,
+                                 const SideEdges& edges) {
+    const auto starts_at = [&](std::size_t vertex) {
+        return std::any_of(curves.knots.begin(), curves.knots.end(),
+                           [&](const auto& knots) { return knots.front() == vertex; });
+    };
+    if (ends.trailing.empty() || !starts_at(ends.start) || !starts_at(ends.end))
+        throw OptionError("points",
+                          fmt::format("element {} has no corner or base at its trailing edge, where its sides "
+                                      "would begin",
+                                      given.name));
+    std::vector<CurveGroup> sides{{{}, edges.upper}, {{}, edges.lower}};
+    for (std::size_t c = 0; c < curves.curves.size(); ++c) {
+        if (curves.curves[c].is_kept) continue;
+        const bool is_upper = ends.is_upper(curves.knots[c].front(), given.points.size());
+        sides[is_upper ? 0 : 1].curves.push_back(c);
+    }
+    const std::size_t least = least_edges_of_curve(curves.curves);
+    for (const CurveGroup& side : sides)
+        if (side.curves.empty() || side.edges < least * side.curves.size())
+            throw OptionError("points", fmt::format("{} edges are too few for a side of element {} with {} curves",
+                                                    side.edges, given.name, side.curves.size()));
+    return sides;
+}
+
+/// Returns the curves of an outline with the number of edges that all of it is to have. Throws OptionError where that is
+/// too small.
+std::vector<CurveGroup> whole_outline(const OutlineCurves& curves, const Element& given, std::size_t points) {
+    CurveGroup all;
+    std::size_t kept = 0;
+    for (std::size_t c = 0; c < curves.curves.size(); ++c) {
+        if (curves.curves[c].is_kept)
+            kept += curves.curves[c].kept_edges;
+        else
+            all.curves.push_back(c);
+    }
+    if (const std::size_t least = kept + least_edges_of_curve(curves.curves) * all.curves.size(); points < least)
+        throw OptionError("exact_points",
+                          fmt::format("exactly {} are too few for the {} of element {}: it needs {}", points,
+                                      counted(curves.curves.size(), "corner"), given.name, least));
+    all.edges = points - kept;
+    return {all};
+}
+
+/// Divides the curves into the number of edges that the options ask for. Throws OptionError for exact numbers that are
 /// too small.
 DividedCurves divide_into_requested(const OutlineCurves& curves, const Element& given, const SurfaceOptions& options,
-                                    const SpacingRule& rule, SampledCurves& known) {
-    if (!options.points) return divide_curves(curves.curves, rule, known);
-    if (!options.exact_points) return divide_curves_into(curves.curves, rule, known, *options.points);
-    if (const std::size_t least = least_edges(curves.curves); *options.points < least)
-        throw OptionError("exact_points",
-                          fmt::format("exactly {} are too few for the {} of element {}: it needs {}", *options.points,
-                                      counted(curves.curves.size(), "corner"), given.name, least));
-    return divide_curves_exactly(curves.curves, rule, known, *options.points);
+                                    const ChordEnds& ends, const SpacingRule& rule, SampledCurves& known) {
+    if (!options.points && !options.side_edges) return divide_curves(curves.curves, rule, known);
+    if (!options.exact_points && options.points) return divide_curves_into(curves.curves, rule, known, *options.points);
+    const std::vector<CurveGroup> groups = options.side_edges ? sides_of(curves, given, ends, *options.side_edges)
+                                                              : whole_outline(curves, given, *options.points);
+    return divide_curves_exactly(curves.curves, rule, known, groups);
 }
 
 /// Sets the largest spacing at each corner. Beside a kept edge, that edge alone sets it.
@@ -344,7 +454,7 @@ std::vector<double> edges_asked_for(const Element& given, std::size_t index, con
     const ChordEnds ends = find_chord_ends(given.points);
     limit_at_corners(curves, outline, given, index, request, ends);
     SampledCurves sampled;
-    const SpacingRule rule = make_spacing_rule(request, ends, extent(given.points), index);
+    const SpacingRule rule = make_spacing_rule(request, ends, extent(given.points), index, given);
     const std::vector<std::vector<double>> of_pieces = edges_of_pieces(curves.curves, rule, sampled);
     std::vector<double> edges(n);
     for (std::size_t c = 0; c < of_pieces.size(); ++c)
@@ -366,15 +476,17 @@ ResampledElement resample(const Element& given, std::size_t index, const Resampl
         append_curves(stretch, treatment, outline_curves);
     }
     const ChordEnds ends = find_chord_ends(given.points);
-    if (options.exact_points) fix_base(outline_curves, given, base_edges(options));
+    if (options.exact_points || options.side_edges) fix_base(outline_curves, given, base_edges(options));
     limit_at_corners(outline_curves, outline, given, index, request, ends);
-    const SpacingRule rule = make_spacing_rule(request, ends, scale, index);
+    if (options.side_edges) divide_at_leading_edge(outline_curves, given, ends);
+    const SpacingRule rule = make_spacing_rule(request, ends, scale, index, given);
 
     const std::vector<OutlineCurve>& curves = outline_curves.curves;
-    DividedCurves divided = divide_into_requested(outline_curves, given, options, rule, known);
+    DividedCurves divided = divide_into_requested(outline_curves, given, options, ends, rule, known);
     // Where lamina decides by itself, it takes no points away from an outline whose number of them matters.
     const bool decides_alone = options.treatment == SurfaceTreatment::automatic && !options.points &&
-                               !options.leading_edge_spacing && !options.trailing_edge_spacing;
+                               !options.side_edges && !options.leading_edge_spacing && !options.trailing_edge_spacing &&
+                               options.station_spacings.empty();
     if (decides_alone && keeps_number_of_points(given) && divided.points.size() < given.points.size())
         divided = divide_curves_into(curves, rule, known, given.points.size());
 

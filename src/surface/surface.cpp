@@ -11,7 +11,9 @@
 
 #include <lamina/error.hpp>
 
+#include "geometry/element_names.hpp"
 #include "geometry/symmetry.hpp"
+#include "geometry/trailing_edge.hpp"
 #include "surface/clearance.hpp"
 #include "surface/corners.hpp"
 #include "surface/crossings.hpp"
@@ -21,7 +23,6 @@
 #include "surface/smooth_run.hpp"
 #include "surface/smoothing_spline.hpp"
 #include "surface/spacing_limits.hpp"
-#include "geometry/trailing_edge.hpp"
 
 namespace lamina::surface {
 
@@ -87,11 +88,13 @@ void restore_crossing(Geometry& geometry, const Geometry& given) {
         restore(geometry, e, given, "its smooth curve would cross that of another element");
 }
 
-/// Throws OptionError unless each element has this number of points.
-void require_number_of_points(const Geometry& geometry, std::size_t points) {
+/// Throws OptionError unless each element has the points whose exact number is asked for.
+void require_exact_points(const Geometry& geometry, const SurfaceOptions& options) {
+    if (!options.exact_points && !options.side_edges) return;
     for (const Element& e : geometry.elements)
-        if (e.points.size() != points)
-            throw OptionError("exact_points", fmt::format("element {}: {}", e.name, e.surface_notes.back()));
+        if (e.surface_restored || (options.points && e.points.size() != *options.points))
+            throw OptionError(options.side_edges ? "points" : "exact_points",
+                              fmt::format("element {}: {}", e.name, e.surface_notes.back()));
 }
 
 /// An element, what becomes of its points, and the edges of the new ones.
@@ -208,6 +211,8 @@ SpacingLimits mirrored_limits(SpacingLimits limits, const Geometry& geometry) {
 Geometry prepare_within(Geometry given, const SurfaceOptions& options, const SpacingLimits& given_limits,
                         std::optional<double> chord) {
     validate(options);
+    for (const StationSpacing& station : options.station_spacings)
+        geometry::require_known_element(given, station.element, "spacing_at");
     const SpacingLimits limits = mirrored_limits(given_limits, given);
     for (Element& e : given.elements) e.features.corners = find_corners(e);
     if (options.smooth) {
@@ -244,7 +249,7 @@ Geometry prepare_within(Geometry given, const SurfaceOptions& options, const Spa
     straighten_crossing(result, plans, given, request);
     restore_below_symmetry(result, given);
     restore_crossing(result, given);
-    if (options.exact_points) require_number_of_points(result, *options.points);
+    require_exact_points(result, options);
     geometry::mirror_again(result);
     for (Element& e : result.elements) geometry::find_trailing_edge(e.points, e.features);
     return result;

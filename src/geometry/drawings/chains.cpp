@@ -16,33 +16,38 @@ namespace lamina::geometry {
 
 namespace {
 
-/// The places where curves end: ends within the tolerance of the first one found there are one place.
+/// The places where curves end: ends within the tolerance of the first one found there, and of their own, are one place.
 class Places {
 public:
-    /// `origin` is one of the places, roughly.
+    /// `tolerance` is the largest of all; `origin` is one of the places, roughly.
     Places(double tolerance, Point origin) : tolerance_(tolerance), origin_(origin) {}
 
-    std::size_t find_or_add(Point p) {
+    std::size_t find_or_add(Point p, double tolerance) {
         const Point steps = (1 / tolerance_) * (p - origin_);
         const double column = std::floor(steps.x), row = std::floor(steps.y);
         for (double i = -1; i <= 1; ++i) {
             for (double j = -1; j <= 1; ++j) {
                 const auto [first, last] = by_cell_.equal_range(key(column + i, row + j));
                 for (auto at = first; at != last; ++at)
-                    if (distance(places_[at->second], p) <= tolerance_) return at->second;
+                    if (distance(places_[at->second].at, p) <= std::min(tolerance, places_[at->second].tolerance))
+                        return at->second;
             }
         }
         by_cell_.emplace(key(column, row), places_.size());
-        places_.push_back(p);
+        places_.push_back({p, tolerance});
         return places_.size() - 1;
     }
     std::size_t size() const { return places_.size(); }
-    Point operator[](std::size_t i) const { return places_[i]; }
+    Point operator[](std::size_t i) const { return places_[i].at; }
 
 private:
+    struct Place {
+        Point at;
+        double tolerance;
+    };
     double tolerance_;
     Point origin_;
-    std::vector<Point> places_;
+    std::vector<Place> places_;
     std::unordered_multimap<std::uint64_t, std::size_t> by_cell_;
 
     static std::uint64_t key(double column, double row) {
@@ -79,19 +84,21 @@ double size_of(const PlaneCurve& curve) {
 /// The curves as the edges of a graph.
 class Graph {
 public:
-    Graph(std::span<const FlatCurve> curves, double tolerance, const std::string& file)
-        : curves_(curves), file_(file), places_(tolerance, curves.empty() ? Point{} : curves[0].curve.control[0]) {
+    Graph(std::span<const FlatCurve> curves, double share, double size, const std::string& file)
+        : curves_(curves), file_(file), places_(share * size, curves.empty() ? Point{} : curves[0].curve.control[0]) {
+        constexpr double least_share = 1e-6, own_factor = 10;  // of sizes of curves
         std::set<Likeness> known;
         for (std::size_t i = 0; i < curves.size(); ++i) {
             const PlaneCurve& curve = curves[i].curve;
             edges_.push_back({0, 0, curve.is_straight() && curve.control.size() == 2, false});
-            if (size_of(curve) <= tolerance) continue;
-            if (!known.insert(likeness_of(curve, tolerance)).second) {
+            const double own = size_of(curve), tolerance = share * std::min(size, own_factor * own);
+            if (own <= least_share * size) continue;
+            if (!known.insert(likeness_of(curve, least_share * size)).second) {
                 ++repeated_;
                 continue;
             }
-            edges_[i].from = places_.find_or_add(at(curve, curve.first));
-            edges_[i].to = places_.find_or_add(at(curve, curve.last));
+            edges_[i].from = places_.find_or_add(at(curve, curve.first), tolerance);
+            edges_[i].to = places_.find_or_add(at(curve, curve.last), tolerance);
             edges_[i].is_left = true;
         }
         ends_.resize(places_.size());
@@ -209,9 +216,9 @@ private:
 
 }  // namespace
 
-std::vector<Chain> join_curves(std::span<const FlatCurve> curves, double tolerance, const std::string& file,
+std::vector<Chain> join_curves(std::span<const FlatCurve> curves, double share, double size, const std::string& file,
                                std::vector<std::string>& notes) {
-    Graph graph(curves, tolerance, file);
+    Graph graph(curves, share, size, file);
     if (graph.repeated() > 0) notes.push_back(fmt::format("{} curves drawn twice left out once", graph.repeated()));
     if (const std::size_t pruned = graph.prune(); pruned > 0)
         notes.push_back(fmt::format("{} construction lines that end at outlines left out", pruned));

@@ -29,6 +29,7 @@ struct Entity {
     std::string status;
     std::uint32_t line = 0;
     std::size_t owner = 0;  ///< the composite curve that it is a part of; 0: none
+    bool is_edge = false;   ///< whether it bounds a trimmed surface
 };
 
 class IgesReader {
@@ -40,7 +41,10 @@ public:
         read_global();
         read_directory();
         for (const auto& [number, entity] : entities_)
-            if (entity.type == 102) own_parts(number, entity);
+            if (entity.type == 102)
+                own_parts(number, entity);
+            else if (entity.type == 142)
+                mark_edge(entity);
         for (const auto& [number, entity] : entities_) take(entity);
         return std::move(drawing_);
     }
@@ -197,6 +201,25 @@ private:
         }
     }
 
+    /// Marks the curve in space that bounds a trimmed surface.
+    void mark_edge(const Entity& boundary) {
+        constexpr std::size_t curve_field = 3;
+        const std::vector<std::string> fields = parameters_of(boundary);
+        if (fields.size() <= curve_field || fields[curve_field].empty()) return;
+        const auto curve = entities_.find(drawn_count(fields[curve_field], file_, boundary.line));
+        if (curve != entities_.end()) curve->second.is_edge = true;
+    }
+
+    bool is_edge(const Entity& e) const {
+        const Entity* part = &e;
+        for (std::size_t depth = 0; depth < max_depth_of_entities; ++depth) {
+            if (part->is_edge) return true;
+            if (part->owner == 0) return false;
+            part = &entities_.at(part->owner);
+        }
+        return false;
+    }
+
     Frame3 matrix_of(std::size_t number, std::size_t depth, const Entity& user) const {
         if (number == 0) return {};
         const auto found = entities_.find(number);
@@ -233,7 +256,7 @@ private:
 
     void take(const Entity& e) {
         if (e.type == 0 || e.type == 102 || e.type == 124) return;
-        const char* reason = why_left_out(e);
+        const char* reason = is_edge(e) ? nullptr : why_left_out(e);
         if (reason != nullptr) {
             ++drawing_.left_out[reason];
         } else if (std::optional<SpaceCurve> curve = curve_of(e)) {

@@ -73,7 +73,7 @@ std::vector<Chain> chains_of(std::span<const FlatCurve> curves, double size, con
     std::size_t fewest = 0;
     for (const double share : join_shares) {
         std::vector<std::string> own_notes;
-        std::vector<Chain> chains = join_curves(curves, share * size, file, own_notes);
+        std::vector<Chain> chains = join_curves(curves, share, size, file, own_notes);
         const auto open = static_cast<std::size_t>(std::count_if(chains.begin(), chains.end(), [&](const Chain& chain) {
             return !chain.is_closed && !is_one_straight_line(curves, chain);
         }));
@@ -212,11 +212,9 @@ private:
                     open.size(), longest.rough.back().x, longest.rough.back().y, longest.gap()));
 }
 
-}  // namespace
-
-std::vector<RawOutline> outlines_of_drawing(Drawing drawing, const std::string& file, bool keep_open,
-                                            std::vector<std::string>& notes) {
-    const std::vector<FlatCurve> curves = in_plane(std::move(drawing), file, notes);
+/// Returns the outlines of the curves of one plane.
+std::vector<RawOutline> outlines_of_plane(std::span<const FlatCurve> curves, const std::string& file, bool keep_open,
+                                          std::vector<std::string>& notes) {
     Box box;
     for (const FlatCurve& drawn : curves)
         for (const Point p : drawn.curve.control) box.include(p);
@@ -254,6 +252,24 @@ std::vector<RawOutline> outlines_of_drawing(Drawing drawing, const std::string& 
                                         outline.chain.links.size() == 1 ? "" : "s"));
     }
     return result;
+}
+
+}  // namespace
+
+std::vector<RawOutline> outlines_of_drawing(const Drawing& drawing, const std::string& file, bool keep_open,
+                                            std::vector<std::string>& notes) {
+    const std::vector<DrawnPlane> planes = planes_of(drawing, file);
+    for (const DrawnPlane& plane : planes) {
+        std::vector<std::string> own_notes = notes_on(plane, drawing);
+        try {
+            std::vector<RawOutline> outlines = outlines_of_plane(curves_in(plane, drawing), file, keep_open, own_notes);
+            notes.insert(notes.end(), own_notes.begin(), own_notes.end());
+            return outlines;
+        } catch (const InputError&) {
+            if (&plane == &planes.back()) throw;
+        }
+    }
+    return {};
 }
 
 }  // namespace lamina::geometry

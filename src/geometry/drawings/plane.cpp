@@ -20,12 +20,11 @@ constexpr double thickness_share = 1e-6;
 using Coordinates = std::array<double, 3>;
 Coordinates coordinates_of(Point3 p) { return {p.x, p.y, p.z}; }
 
-/// The coordinates of the plane in the order in which planes are looked for: of planes z = C, x and y.
+/// The axes of a plane.
 struct Axes {
-    std::size_t across, first, second;
+    std::size_t first, second;
 };
-constexpr std::array<Axes, 3> all_axes{{{2, 0, 1}, {1, 0, 2}, {0, 1, 2}}};
-constexpr std::array<const char*, 3> names{"x", "y", "z"};
+Axes axes_of(std::size_t across) { return {across == 0 ? 1u : 0u, across == 2 ? 1u : 2u}; }
 
 /// The box round the control points of curves, and its longest side.
 struct Box3 {
@@ -48,12 +47,10 @@ Box3 box_of(const SpaceCurve& curve) {
     return box;
 }
 
-/// Curves that lie in one plane.
-struct Plane {
-    Axes axes{};
-    double at = 0;
-    std::vector<std::size_t> curves;
-    double length = 0;  ///< of the polygons of their control points
+/// A plane with the lengths of the polygons of its control points.
+struct MeasuredPlane {
+    DrawnPlane plane;
+    double curved = 0, length = 0;
 };
 
 double length_of(const SpaceCurve& curve) {
@@ -62,44 +59,40 @@ double length_of(const SpaceCurve& curve) {
     return sum;
 }
 
-/// Returns the planes across an axis that hold curves, by ascending coordinate. Straight lines along one axis lie in
-/// planes of both others, and count where there are curves that do not.
-std::vector<Plane> planes_across(const Axes& axes, const std::vector<DrawnCurve>& curves,
-                                 const std::vector<Box3>& boxes, double thickness) {
+/// Returns the planes across an axis that hold curves, by ascending coordinate.
+std::vector<MeasuredPlane> planes_across(std::size_t axis, const std::vector<DrawnCurve>& curves,
+                                         const std::vector<Box3>& boxes, double thickness) {
     std::vector<std::size_t> flat;
     for (std::size_t i = 0; i < curves.size(); ++i)
-        if (boxes[i].side(axes.across) <= thickness) flat.push_back(i);
-    std::stable_sort(flat.begin(), flat.end(), [&](std::size_t a, std::size_t b) {
-        return boxes[a].lower[axes.across] < boxes[b].lower[axes.across];
-    });
-    std::vector<Plane> planes;
+        if (boxes[i].side(axis) <= thickness) flat.push_back(i);
+    std::stable_sort(flat.begin(), flat.end(),
+                     [&](std::size_t a, std::size_t b) { return boxes[a].lower[axis] < boxes[b].lower[axis]; });
+    std::vector<MeasuredPlane> planes;
     for (const std::size_t i : flat) {
-        const double at = boxes[i].lower[axes.across];
-        if (planes.empty() || at - planes.back().at > thickness) planes.push_back({axes, at, {}, 0});
-        planes.back().curves.push_back(i);
-        planes.back().length += length_of(curves[i].curve);
+        const double at = boxes[i].lower[axis];
+        if (planes.empty() || at - planes.back().plane.at > thickness) planes.push_back({{axis, at, {}}, 0, 0});
+        MeasuredPlane& plane = planes.back();
+        plane.plane.curves.push_back(i);
+        plane.length += length_of(curves[i].curve);
+        if (!curves[i].curve.is_straight()) plane.curved += length_of(curves[i].curve);
     }
-    for (Plane& plane : planes) std::sort(plane.curves.begin(), plane.curves.end());
+    for (MeasuredPlane& plane : planes) std::sort(plane.plane.curves.begin(), plane.plane.curves.end());
     return planes;
 }
 
 /// Returns whether the curves of a plane are all along one line.
-bool is_line(const Plane& plane, const std::vector<Box3>& boxes, double thickness) {
+bool is_line(const DrawnPlane& plane, const std::vector<Box3>& boxes, double thickness) {
     Box3 box;
     for (const std::size_t i : plane.curves) {
         box.include({boxes[i].lower[0], boxes[i].lower[1], boxes[i].lower[2]});
         box.include({boxes[i].upper[0], boxes[i].upper[1], boxes[i].upper[2]});
     }
-    return box.side(plane.axes.first) <= thickness || box.side(plane.axes.second) <= thickness;
+    const Axes axes = axes_of(plane.across);
+    return box.side(axes.first) <= thickness || box.side(axes.second) <= thickness;
 }
 
-PlaneCurve flattened(SpaceCurve curve, const Axes& axes) {
-    PlaneCurve flat;
-    flat.degree = curve.degree;
-    flat.knots = std::move(curve.knots);
-    flat.weights = std::move(curve.weights);
-    flat.first = curve.first;
-    flat.last = curve.last;
+PlaneCurve flattened(const SpaceCurve& curve, const Axes& axes) {
+    PlaneCurve flat{curve.degree, curve.knots, {}, curve.weights, curve.first, curve.last};
     flat.control.reserve(curve.control.size());
     for (const Point3& p : curve.control) {
         const Coordinates c = coordinates_of(p);
@@ -110,8 +103,9 @@ PlaneCurve flattened(SpaceCurve curve, const Axes& axes) {
 
 }  // namespace
 
-std::vector<FlatCurve> in_plane(Drawing drawing, const std::string& file, std::vector<std::string>& notes) {
-    std::vector<DrawnCurve>& curves = drawing.curves;
+std::vector<DrawnPlane> planes_of(const Drawing& drawing, const std::string& file) {
+    constexpr std::size_t most = 8;
+    const std::vector<DrawnCurve>& curves = drawing.curves;
     std::vector<Box3> boxes;
     Box3 all;
     for (const DrawnCurve& drawn : curves) {
@@ -119,27 +113,41 @@ std::vector<FlatCurve> in_plane(Drawing drawing, const std::string& file, std::v
         for (const Point3& p : drawn.curve.control) all.include(p);
     }
     const double thickness = thickness_share * all.longest();
-    std::optional<Plane> best;
-    for (const Axes& axes : all_axes)
-        for (Plane& plane : planes_across(axes, curves, boxes, thickness))
-            if (!is_line(plane, boxes, thickness) && (!best || plane.length > (1 + thickness_share) * best->length))
-                best = std::move(plane);
-    if (!best)
+    std::vector<MeasuredPlane> planes;
+    for (const std::size_t axis : {2, 1, 0})
+        for (MeasuredPlane& plane : planes_across(axis, curves, boxes, thickness))
+            if (!is_line(plane.plane, boxes, thickness)) planes.push_back(std::move(plane));
+    // Lengths that differ by rounding are equal.
+    const auto rounded = [&](double length) { return std::floor(length / (1e3 * thickness) + 0.5); };
+    std::stable_sort(planes.begin(), planes.end(), [&](const MeasuredPlane& a, const MeasuredPlane& b) {
+        return std::pair(rounded(a.curved), rounded(a.length)) > std::pair(rounded(b.curved), rounded(b.length));
+    });
+    if (planes.empty())
         throw InputError({file, curves.front().line, {}},
                          "the curves lie in no plane x = C, y = C or z = C that holds an outline");
-    const Axes axes = best->axes;
-    if (axes.across != 2 || best->curves.size() < curves.size())
-        notes.push_back(
-            fmt::format("the plane {} = {:.6g}, with {} and {} as coordinates{}", names[axes.across], best->at,
-                        names[axes.first], names[axes.second],
-                        best->curves.size() < curves.size()
-                            ? fmt::format("; {} curves off it left out", curves.size() - best->curves.size())
-                            : ""));
+    std::vector<DrawnPlane> result;
+    for (std::size_t i = 0; i < std::min(most, planes.size()); ++i) result.push_back(std::move(planes[i].plane));
+    return result;
+}
+
+std::vector<FlatCurve> curves_in(const DrawnPlane& plane, const Drawing& drawing) {
     std::vector<FlatCurve> flat;
-    flat.reserve(best->curves.size());
-    for (const std::size_t i : best->curves)
-        flat.push_back({flattened(std::move(curves[i].curve), axes), curves[i].line, std::move(curves[i].layer)});
+    flat.reserve(plane.curves.size());
+    for (const std::size_t i : plane.curves) {
+        const DrawnCurve& drawn = drawing.curves[i];
+        flat.push_back({flattened(drawn.curve, axes_of(plane.across)), drawn.line, drawn.layer});
+    }
     return flat;
+}
+
+std::vector<std::string> notes_on(const DrawnPlane& plane, const Drawing& drawing) {
+    constexpr std::array<const char*, 3> names{"x", "y", "z"};
+    const std::size_t off = drawing.curves.size() - plane.curves.size();
+    const Axes axes = axes_of(plane.across);
+    if (plane.across == 2 && off == 0) return {};
+    return {fmt::format("the plane {} = {:.6g}, with {} and {} as coordinates; {} curve{} off it left out",
+                        names[plane.across], plane.at, names[axes.first], names[axes.second], off,
+                        off == 1 ? "" : "s")};
 }
 
 }  // namespace lamina::geometry

@@ -16,10 +16,22 @@ struct FlatCurve {
     std::string layer;
 };
 
-/// Returns the curves of a drawing that lie in one plane: z = C, then y = C, whose coordinates are x and z, or x = C with
-/// y and z. Where curves lie in several planes, as those of both ends of a wing do, the plane with the longest outline
-/// counts, and of equal ones that of the least C. Adds notes on the plane and on curves off it. Throws InputError where no
-/// curve lies in such a plane.
-std::vector<FlatCurve> in_plane(Drawing drawing, const std::string& file, std::vector<std::string>& notes);
+/// A plane of two axes that holds curves of a drawing.
+struct DrawnPlane {
+    std::size_t across = 2;           ///< the number of the axis whose coordinate is constant
+    double at = 0;                    ///< that coordinate
+    std::vector<std::size_t> curves;  ///< numbers of those that lie in it, ascending
+};
+
+/// Returns the planes z = C, whose coordinates are x and y, y = C, with x and z, and x = C, with y and z, that may hold
+/// outlines: first the one with the longest curves that are not straight, as at the ends of a wing, then the longest
+/// straight ones; of equal ones that of the least C. At most eight. Throws InputError where there is none.
+std::vector<DrawnPlane> planes_of(const Drawing& drawing, const std::string& file);
+
+/// Returns the curves of a plane, in its coordinates.
+std::vector<FlatCurve> curves_in(const DrawnPlane& plane, const Drawing& drawing);
+
+/// Returns what users should know of the choice of a plane.
+std::vector<std::string> notes_on(const DrawnPlane& plane, const Drawing& drawing);
 
 }  // namespace lamina::geometry
