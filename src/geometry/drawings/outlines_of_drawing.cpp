@@ -28,7 +28,7 @@ constexpr double deviation_share = 1e-6;
 constexpr double max_gap_share = 0.1;
 /// Outlines below this share of the largest are text, arrows and marks.
 constexpr double min_size_share = 0.01;
-/// A round far field is this many times as large as what it contains.
+/// A far field that is no rectangle is this many times as large as what it contains, and about as wide as high.
 constexpr double far_field_ratio = 5;
 constexpr std::size_t max_outlines = 2000, max_points = 4'000'000;
 
@@ -180,10 +180,13 @@ private:
             if (!contains(outer->box, o.box)) return false;
             inner = std::max(inner, o.size());
         }
-        constexpr double rounding = 1e-6;
-        const double area_of_box = outer->box.width() * outer->box.height();
-        const bool is_rectangle = outer->area > (1 - rounding) * area_of_box;
-        if (!is_rectangle && outer->size() < far_field_ratio * inner) return false;
+        constexpr double rounding = 1e-6, min_full_share = 0.6, max_aspect_ratio = 3;  // which no section has
+        const double width = outer->box.width(), height = outer->box.height();
+        const bool is_rectangle = outer->area > (1 - rounding) * width * height;
+        const bool is_far_field = outer->size() >= far_field_ratio * inner &&
+                                  std::max(width, height) <= max_aspect_ratio * std::min(width, height) &&
+                                  outer->area >= min_full_share * width * height;
+        if (!is_rectangle && !is_far_field) return false;
         const std::size_t first = outer->chain.links[0].curve;
         leave_out([&](const Outline& o) { return o.chain.links[0].curve == first; }, "a frame round all others");
         return true;
@@ -194,7 +197,7 @@ private:
         std::vector<bool> is_inner(outlines_.size());
         for (std::size_t i = 0; i < outlines_.size(); ++i)
             for (std::size_t j = 0; j < outlines_.size() && !is_inner[i]; ++j)
-                is_inner[i] = i != j && contains(outlines_[j].box, outlines_[i].box) &&
+                is_inner[i] = outlines_[j].area > outlines_[i].area && contains(outlines_[j].box, outlines_[i].box) &&
                               is_inside(outlines_[i].rough[0], outlines_[j].rough);
         std::size_t i = 0;
         leave_out([&](const Outline&) { return is_inner[i++]; }, "inside another one, where there is no flow");
@@ -233,6 +236,7 @@ std::vector<RawOutline> outlines_of_plane(std::span<const FlatCurve> curves, con
     if (!open.empty())
         notes.push_back(fmt::format("{} open chain{} of curves left out", open.size(), open.size() == 1 ? "" : "s"));
     std::vector<Outline> outlines = Selection(std::move(closed), notes).take();
+    if (outlines.empty()) throw InputError({file, curves[0].line, {}}, "the drawing has no outline with an inside");
     if (outlines.size() > max_outlines)
         throw InputError({file, 1, {}}, fmt::format("more than {} outlines in one drawing", max_outlines));
 
