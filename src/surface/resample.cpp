@@ -326,10 +326,11 @@ void divide_at_leading_edge(OutlineCurves& curves, const Element& given, const C
 std::vector<CurveGroup> sides_of(const OutlineCurves& curves, const Element& given, const ChordEnds& ends,
                                  const SideEdges& edges) {
     const auto starts_at = [&](std::size_t vertex) {
-        return std::any_of(curves.knots.begin(), curves.knots.end(),
-                           [&](const auto& knots) { return knots.front() == vertex; });
+        for (std::size_t c = 0; c < curves.curves.size(); ++c)
+            if (curves.starts_at_corner[c] && curves.knots[c].front() == vertex) return true;
+        return false;
     };
-    if (ends.trailing.empty() || !starts_at(ends.start) || !starts_at(ends.end))
+    if (!starts_at(ends.start) || !starts_at(ends.end))
         throw OptionError("points",
                           fmt::format("element {} has no corner or base at its trailing edge, where its sides "
                                       "would begin",
