@@ -24,12 +24,19 @@ def mesh(
     # element, or there is no mesh; BASE edges on the base of a blunt trailing edge (N / 50); one ray at each
     # vertex, but at sharp corners a fan with the rays of half a turn, max-ray-angle apart; >= 3 and <= 1e+07
     exact_points: str | float | Sequence[float] | None = None,
+    # exactly so many wall edges on both sides of each element, or there is no mesh; BASE edges on the base of a
+    # blunt trailing edge (one for 50 of the others); >= 1 and <= 1e+06
+    points: str | float | Sequence[float] | None = None,
     # wall spacing at the leading edge at most, in lengths of the element; makes auto resample. Where the
     # curvature asks for less, it gets less; > 0
     spacing_le: float | None = None,
     # wall spacing at the trailing edge, in lengths of the element; makes auto resample; else as the layer asks,
     # about 0.001; > 0
     spacing_te: float | None = None,
+    # wall spacing at a station of an element, or of all, at most: X from 0 at the leading to 1 at the trailing
+    # edge, SHARE in lengths of the element; ELEMENT:upper:X=SHARE (lower) on one side; makes auto resample; may
+    # be given several times
+    spacing_at: str | float | Sequence[str | float] | None = None,
     # largest wall spacing, in lengths of the element; > 0 [0.02]
     spacing_max: float | None = None,
     # smooth the points first; none moves by more than this; > 0
@@ -45,6 +52,11 @@ def mesh(
     # join bodies that overlap or touch, after all transformations: the outline is the outer border of their
     # union, and each part of the wall keeps the marker of its body
     union: bool | None = None,
+    # make blunt trailing edges sharp: extend both sides straight, or blend them together; before transform
+    sharpen_te: Literal["extend", "blend"] | None = None,
+    # gap of all trailing edges, in chords of their elements: the sides move apart, which fades over DISTANCE
+    # chords as with XFOIL's TGAP; 1, the default: in proportion to the distance from the nose
+    open_te: str | float | Sequence[float] | None = None,
     # change of an element, given by its name, or of all: scale:S[:X,Y], rotate:DEG[:X,Y] (counter-clockwise,
     # about the origin or X,Y), shift:DX,DY, mirror[:Y] (in a horizontal line), flap:DEG:X,Y (a plain flap with
     # its hinge at X,Y, downwards); may be given several times, in order

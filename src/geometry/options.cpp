@@ -41,15 +41,14 @@ OptionTable<GeometryOptions> option_rows() {
                true, member_at(&GeometryOptions::unite));
     table.choice(
         "sharpen-te",
-        "make blunt trailing edges sharp: extend both sides straight to where they meet, or blend them together "
-        "within the chord; before the changes of transform",
+        "make blunt trailing edges sharp: extend both sides straight, or blend them together; before transform",
         Choices<TailSharpening>{{"extend", TailSharpening::extend}, {"blend", TailSharpening::blend}},
         member_at(&GeometryOptions::sharpen_te));
     table
         .spec("open-te", "GAP[:DISTANCE]",
-              "gap of all trailing edges, in chords of their elements, sharp ones too: the sides move apart by a share "
-              "that fades over DISTANCE chords before the trailing edge, as XFOIL's TGAP does; 1, the default: in "
-              "proportion to the distance from the nose",
+              "gap of all trailing edges, in chords of their elements: the sides move apart, which fades over DISTANCE "
+              "chords "
+              "as with XFOIL's TGAP; 1, the default: in proportion to the distance from the nose",
               parse_gap, gap_text, member_at(&GeometryOptions::open_te))
         .excludes = {"sharpen-te"};
     table.specs("transform", "ELEMENT:CHANGE",

@@ -107,9 +107,9 @@ void add_numbers_of_points(OptionTableBuilder<SurfaceOptions>& table) {
         .excludes = {"surface-points"};
     table
         .add({"points", OptionKind::word, "UPPER:LOWER[:BASE]",
-              "exactly so many wall edges on both sides of each element, from the trailing to the leading edge, or "
-              "there "
-              "is no mesh; BASE edges on the base of a blunt trailing edge (one for 50 of the others)",
+              "exactly so many wall edges on both sides of each element, or there is no mesh; BASE edges on the base "
+              "of a "
+              "blunt trailing edge (one for 50 of the others)",
               side_edge_numbers.text(), set_side_edges, side_edges_text})
         .excludes = {"surface-points", "exact-points"};
 }
@@ -138,9 +138,9 @@ OptionTable<SurfaceOptions> option_rows() {
                  positive_numbers, at(&SurfaceOptions::trailing_edge_spacing));
     table.specs(
         "spacing-at", "ELEMENT:X=SHARE",
-        "wall spacing at a station of an element, given by its name, or of all, at most: X is 0 at the leading and "
-        "1 at the trailing edge, SHARE in lengths of the element; ELEMENT:upper:X=SHARE is on one side (lower) "
-        "alone; makes auto resample; may be given several times",
+        "wall spacing at a station of an element, or of all, at most: X from 0 at the leading to 1 at the trailing "
+        "edge, SHARE in lengths of the element; ELEMENT:upper:X=SHARE (lower) on one side; makes auto resample; may be "
+        "given several times",
         parse_station, station_text, at(&SurfaceOptions::station_spacings));
     table.number("spacing-max", "SHARE", "largest wall spacing, in lengths of the element", positive_numbers,
                  at(&SurfaceOptions::max_spacing));
