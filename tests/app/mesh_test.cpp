@@ -234,6 +234,17 @@ TEST_F(MeshCommand, ThreadsDoNotChangeTheFiles) {
     }
 }
 
+TEST(MeshOfGivenPoints, SaysHowManyPointsItAdds) {
+    const TemporaryFolder folder;
+    const auto said = [&](const std::vector<std::string>& options) {
+        std::vector<std::string> words{"mesh", "naca:0012:60", "--surface", "keep", "-o", "a.su2"};
+        words.insert(words.end(), options.begin(), options.end());
+        return run_lamina(folder, words).out;
+    };
+    EXPECT_NE(said({}).find("points added by refining rays"), std::string::npos);
+    EXPECT_NE(said({"--max-ray-angle", "40"}).find("no points added"), std::string::npos);
+}
+
 TEST_F(MeshCommand, PlotsEveryFormat) {
     const TemporaryFolder pictures;
     const std::string mesh = (folder() / "n.vtu").string();

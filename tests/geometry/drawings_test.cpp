@@ -249,6 +249,7 @@ TEST(Drawings, RefusalsSayWhereAndWhatHelps) {
     says(dxf(entity("CIRCLE", {"40 one"})), "drawing:10: 'one' is not a number");
     says(dxf(entity("CIRCLE", {"40 1e99"})), "is not a number");
     says(dxf("0\n"), "is not a");
+    says(svg("<g transform='scale(1e50)'><circle r='1e50'/></g>"), "the SVG circle: coordinates above 1e+60");
     says("0\nSECTION\n2\nENTITIES\n0", "ends within a group");
     says(dxf(entity("SPLINE", {"71 3", "10 0", "20 0", "10 1", "20 1"})),
          "SPLINE: it has 2 control points for degree 3");

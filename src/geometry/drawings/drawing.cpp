@@ -1,5 +1,6 @@
 #include "geometry/drawings/drawing.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <utility>
@@ -12,6 +13,12 @@
 
 namespace lamina::geometry {
 
+namespace {
+
+constexpr double largest = 1e60;  // as of all coordinates
+
+}  // namespace
+
 void add_curve(Drawing& drawing, DrawnCurve curve, const std::string& what, const std::string& file) {
     drawing.control_points += curve.curve.control.size();
     if (drawing.curves.size() == max_drawn_curves || drawing.control_points > max_control_points)
@@ -20,11 +27,15 @@ void add_curve(Drawing& drawing, DrawnCurve curve, const std::string& what, cons
                                      max_drawn_curves, max_control_points));
     if (const std::string defect = defect_of(curve.curve); !defect.empty())
         throw InputError({file, curve.line, {}}, fmt::format("{}: {}", what, defect));
+    const auto is_beyond = [](const Point3& p) {
+        return !(std::abs(p.x) <= largest && std::abs(p.y) <= largest && std::abs(p.z) <= largest);
+    };
+    if (std::any_of(curve.curve.control.begin(), curve.curve.control.end(), is_beyond))
+        throw InputError({file, curve.line, {}}, fmt::format("{}: coordinates above {:g}", what, largest));
     drawing.curves.push_back(std::move(curve));
 }
 
 double drawn_number(std::string_view text, const std::string& file, std::uint32_t line) {
-    constexpr double largest = 1e60;  // as of all coordinates
     constexpr std::size_t longest = 64;
     const std::string_view shown = trimmed(text);
     std::string plain(shown.substr(shown.starts_with('+') ? 1 : 0, longest));
@@ -40,9 +51,9 @@ double drawn_number(std::string_view text, const std::string& file, std::uint32_
 }
 
 std::size_t drawn_count(std::string_view text, const std::string& file, std::uint32_t line) {
-    constexpr double largest = 4e9;
+    constexpr double most = 4e9;
     const double value = drawn_number(text, file, line);
-    if (!(value >= 0 && value <= largest) || value != std::floor(value))
+    if (!(value >= 0 && value <= most) || value != std::floor(value))
         throw InputError({file, line, {}}, fmt::format("'{}' is not a whole number", printable(trimmed(text))));
     return static_cast<std::size_t>(value);
 }

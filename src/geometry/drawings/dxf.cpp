@@ -321,7 +321,7 @@ private:
     /// Adds the straight and the bulged parts of a polyline.
     void add_polyline(const Record& record, std::vector<PolylineVertex> vertices, bool is_closed, const Frame3& frame) {
         if (is_closed && !vertices.empty()) vertices.push_back({vertices[0].at});
-        constexpr double flat_bulge = 1e-9;
+        constexpr double flat_bulge = 1e-7;  // whose arc leaves its chord by less than samples may
         std::vector<Point3> straight;
         const auto flush = [&] {
             if (straight.size() > 1) add(record, mapped(polyline(straight), frame));

@@ -185,7 +185,13 @@ SampledChain sample(std::span<const FlatCurve> curves, const Chain& chain, doubl
                          fmt::format("an outline that needs more than {} points", max_points));
     for (const Part& part : parts) result.points.push_back({part.a, part.drawn->line, part.is_corner});
     const Part& last = parts.back();
+    // Rounding leaves numbers beside 0 that predicates would not be exact with.
+    constexpr double least = 1e-60;
     result.points.push_back(chain.is_closed ? result.points.front() : SourcePoint{last.b, last.drawn->line});
+    for (SourcePoint& p : result.points) {
+        if (std::abs(p.at.x) < least) p.at.x = 0;
+        if (std::abs(p.at.y) < least) p.at.y = 0;
+    }
     return result;
 }
 
