@@ -161,6 +161,7 @@ constexpr std::array<Format, 5> formats = {
 /// Returns "2 TEXT, 1 DIMENSION".
 std::string list_of(const std::map<std::string, std::size_t>& left_out) {
     std::vector<std::string> parts;
+    parts.reserve(left_out.size());
     for (const auto& [kind, count] : left_out) parts.push_back(fmt::format("{} {}", count, kind));
     return fmt::format("{}", fmt::join(parts, ", "));
 }

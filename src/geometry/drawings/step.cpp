@@ -403,29 +403,33 @@ private:
             if (const auto list = trimmed_parameters(number)) trimmed_curves.insert(reference((*list)[1], number));
         for (const std::size_t number : order_) {
             if (trimmed_curves.contains(number)) continue;
-            if (const auto list = trimmed_parameters(number)) {
-                const auto a = trim_point((*list)[2], number), b = trim_point((*list)[3], number);
-                const auto known = basis(number);
-                if (a && b)
-                    add_between(number, reference((*list)[1], number), *a, *b, (*list)[4] != ".F.");
-                else if (known && known->spline)
-                    add(number, *known->spline);
-                else
-                    leave_out(number);
-                continue;
-            }
-            const std::string_view name = instance(number).name();
-            const bool is_free = name.empty() || name == "POLYLINE" || name == "B_SPLINE_CURVE_WITH_KNOTS" ||
-                                 name == "BEZIER_CURVE" || name == "QUASI_UNIFORM_CURVE" || name == "UNIFORM_CURVE";
-            if (name == "CIRCLE" || name == "ELLIPSE") {
-                const std::optional<BasisCurve> known = basis(number);
-                if (known && known->ellipse)
-                    add(number,
-                        elliptic_arc(known->ellipse->origin, known->ellipse->a, known->ellipse->b, 0, 2 * core::pi));
-            } else if (is_free) {
-                if (std::optional<SpaceCurve> spline = spline_of(number)) add(number, *std::move(spline));
-            }
+            if (const auto list = trimmed_parameters(number))
+                add_trimmed(number, *list);
+            else
+                add_whole(number);
         }
+    }
+
+    void add_trimmed(std::size_t number, std::span<const std::string_view> list) {
+        const auto a = trim_point(list[2], number), b = trim_point(list[3], number);
+        if (a && b) return add_between(number, reference(list[1], number), *a, *b, list[4] != ".F.");
+        const std::optional<BasisCurve> known = basis(number);
+        if (known && known->spline) return add(number, *known->spline);
+        leave_out(number);
+    }
+
+    /// Adds a curve that nothing trims. Lines have no ends of their own.
+    void add_whole(std::size_t number) {
+        constexpr std::array<std::string_view, 8> kinds{
+            "",       "POLYLINE", "B_SPLINE_CURVE_WITH_KNOTS", "BEZIER_CURVE", "QUASI_UNIFORM_CURVE", "UNIFORM_CURVE",
+            "CIRCLE", "ELLIPSE"};
+        if (std::find(kinds.begin(), kinds.end(), instance(number).name()) == kinds.end()) return;
+        std::optional<BasisCurve> known = basis(number);
+        if (!known) return;
+        if (known->ellipse)
+            add(number, elliptic_arc(known->ellipse->origin, known->ellipse->a, known->ellipse->b, 0, 2 * core::pi));
+        else if (known->spline)
+            add(number, *std::move(known->spline));
     }
 
     std::optional<std::vector<std::string_view>> trimmed_parameters(std::size_t number) const {
