@@ -305,6 +305,14 @@ TEST(Drawings, ManyCurvesTakeLittleTime) {
     }
     EXPECT_EQ(element_of(svg(circles)).format, "svg");
     EXPECT_NE(message_of(svg(star)).find("curves meet there"), std::string::npos);
+    // A long instance that all edges name, declarations without end, and composite curves with matrices of matrices.
+    std::string edges = "#1=CARTESIAN_POINT('',(0.,0.));\n#2=VERTEX_POINT('',#1);\n#3=(BOUNDED_CURVE()A('" +
+                        std::string(300'000, 'x') + "'));\n";
+    for (int i = 0; i < 20'000; ++i) edges += fmt::format("#{}=EDGE_CURVE('',#2,#2,#3,.T.);\n", 10 + i);
+    EXPECT_NE(message_of(step(edges)).find("named too often"), std::string::npos);
+    std::string declarations;
+    for (int i = 0; i < 300'000; ++i) declarations += "<!>";
+    EXPECT_EQ(element_of(svg(declarations + "<circle r='1'/>")).format, "svg");
     std::string apart;
     for (int i = 0; i < 2500; ++i) apart += fmt::format("<circle cx='{}' r='1'/>", 3 * i);
     EXPECT_NE(message_of(svg(apart)).find("more than 2000 outlines"), std::string::npos);

@@ -60,7 +60,8 @@ private:
     std::vector<Line> directory_, parameters_;
     char divider_ = ',', end_ = ';';
     std::map<std::size_t, Entity> entities_;  ///< by the number of their first line in the directory
-    mutable std::size_t lines_read_ = 0;      ///< of parameters
+    mutable std::map<std::size_t, Frame3> matrices_;
+    mutable std::size_t lines_read_ = 0;  ///< of parameters
 
     void divide(std::string_view text) {
         constexpr std::size_t section_column = 72;
@@ -140,11 +141,10 @@ private:
 
     /// Returns the parameters of an entity, behind its type.
     std::vector<std::string> parameters_of(const Entity& e) const {
-        constexpr std::size_t width = 64, most_lines_of_matrix = 16;
-        // Only matrices are read more than once; other entities have lines of their own.
-        if (e.type != 124) lines_read_ += e.lines;
-        if (e.type == 124 ? e.lines > most_lines_of_matrix : lines_read_ > 2 * parameters_.size())
-            refuse(e, "its parameters have more lines than the file");
+        constexpr std::size_t width = 64;
+        // Entities have lines of their own, which are read twice at most.
+        lines_read_ += e.lines;
+        if (lines_read_ > 2 * parameters_.size()) refuse(e, "its parameters have more lines than the file");
         std::string text;
         for (std::size_t k = 0; k < e.lines; ++k) {
             const std::size_t at = e.parameters + k;
@@ -220,15 +220,21 @@ private:
         return false;
     }
 
+    Frame3 own_matrix(const Entity& e) const {
+        Numbers numbers(*this, e);
+        std::array<double, 12> m{};
+        for (double& x : m) x = numbers.next();
+        return {{m[3], m[7], m[11]}, {m[0], m[4], m[8]}, {m[1], m[5], m[9]}, {m[2], m[6], m[10]}};
+    }
+
     Frame3 matrix_of(std::size_t number, std::size_t depth, const Entity& user) const {
         if (number == 0) return {};
         const auto found = entities_.find(number);
         if (found == entities_.end() || found->second.type != 124 || depth == max_depth_of_entities)
             refuse(user, fmt::format("its transformation {} is none", number));
-        Numbers numbers(*this, found->second);
-        std::array<double, 12> m{};
-        for (double& x : m) x = numbers.next();
-        const Frame3 frame{{m[3], m[7], m[11]}, {m[0], m[4], m[8]}, {m[1], m[5], m[9]}, {m[2], m[6], m[10]}};
+        const auto [known, is_new] = matrices_.try_emplace(number);
+        if (is_new) known->second = own_matrix(found->second);
+        const Frame3& frame = known->second;
         return matrix_of(found->second.matrix, depth + 1, user).after(frame);
     }
 

@@ -24,7 +24,7 @@ namespace lamina::geometry {
 
 namespace {
 
-constexpr std::size_t max_depth_of_instances = 16;
+constexpr std::size_t max_depth_of_instances = 16, most_reads_of_byte = 100;
 
 bool is_blank(char c) { return is_space(c) || c == '\n' || c == '\r'; }
 
@@ -68,7 +68,8 @@ struct Instance {
 
 class StepReader {
 public:
-    explicit StepReader(const std::string& file) : file_(file) {}
+    StepReader(std::string_view text, const std::string& file)
+        : file_(file), bytes_left_(most_reads_of_byte * text.size() + 1) {}
 
     Drawing read(std::string_view text) {
         divide(text);
@@ -88,6 +89,7 @@ private:
     Drawing drawing_;
     std::unordered_map<std::size_t, Instance> instances_;
     std::vector<std::size_t> order_;  ///< of the instances in the file
+    mutable std::size_t bytes_left_;  ///< that may still be read
 
     [[noreturn]] void refuse(std::size_t number, const std::string& reason) const {
         const auto found = instances_.find(number);
@@ -164,8 +166,11 @@ private:
     /// Returns the parameters of an instance with a name, or of the part of an instance of several parts that has it.
     std::optional<std::vector<std::string_view>> find_parameters(std::size_t number, std::string_view name) const {
         const std::string_view text = instance(number).text;
+        if (!text.starts_with('(') && instance(number).name() != name) return std::nullopt;
+        // Long instances that many others name are read again and again.
+        bytes_left_ -= std::min(bytes_left_, text.size());
+        if (bytes_left_ == 0) refuse(number, "it is named too often");
         if (!text.starts_with('(')) {
-            if (instance(number).name() != name) return std::nullopt;
             return parts_of(inside(text.substr(std::min(text.find('('), text.size()))));
         }
         for (std::size_t at = text.find(name); at != std::string_view::npos; at = text.find(name, at + 1)) {
@@ -440,6 +445,6 @@ private:
 
 }  // namespace
 
-Drawing read_step(std::string_view text, const std::string& file) { return StepReader(file).read(text); }
+Drawing read_step(std::string_view text, const std::string& file) { return StepReader(text, file).read(text); }
 
 }  // namespace lamina::geometry

@@ -267,8 +267,9 @@ private:
     /// Skips a declaration of a document type, whose subset in brackets holds declarations of its own.
     bool skip_declaration() {
         if (!text_.substr(at_).starts_with("<!")) return false;
-        const std::size_t close = text_.find('>', at_), bracket = text_.find('[', at_);
-        if (bracket != std::string_view::npos && bracket < close) return skip("<!", "]>");
+        const std::size_t close = text_.find('>', at_);
+        const std::string_view declaration = text_.substr(at_, close == std::string_view::npos ? close : close - at_);
+        if (declaration.find('[') != std::string_view::npos) return skip("<!", "]>");
         advance(close == std::string_view::npos ? text_.size() : close + 1);
         return true;
     }
