@@ -80,6 +80,7 @@ struct Geometry {
     /// nothing is turned, and where the configuration stood upright.
     std::optional<Box> unturned_box{};
     std::optional<double> symmetry{};  ///< the line of symmetry y = Y that cut_at_symmetry() cut the bodies at
+    std::optional<double> pitch{};     ///< distance along y of the copies in a row, as blade_row() rounded it
 };
 
 /// Keeps of all bodies what is above the line y = Y. Those that the line cuts, or that stand on it, end on it exactly and
@@ -87,6 +88,11 @@ struct Geometry {
 /// elements. Throws InputError for a body below the line, one that touches it at a single point, and one that encloses a
 /// part of the flow with it.
 LAMINA_EXPORT Geometry cut_at_symmetry(Geometry geometry, double y);
+/// Makes the bodies one blade of an endless row along y, turned counter-clockwise about the origin by the stagger angle.
+/// Geometry::pitch becomes the pitch rounded to 41 significant bits, so that it can be added to coordinates of the border
+/// between blades exactly. Throws OptionError where neighbours are not above and below each other with some room between
+/// along y, and for a row more than 4000 pitches away from y = 0.
+LAMINA_EXPORT Geometry blade_row(Geometry geometry, double pitch, double stagger_deg);
 
 LAMINA_EXPORT Box bounding_box(const Geometry& geometry);  ///< the box round all elements
 /// Returns the box whose width is the reference chord: Geometry::unturned_box, else bounding_box().

@@ -20,10 +20,11 @@ enum class MarkerKind : std::uint8_t {
     wall,       ///< the flow sticks to it
     far_field,  ///< the outer boundary
     symmetry,   ///< a line of symmetry
-    other       ///< unknown
+    other,      ///< unknown
+    periodic    ///< one of the two borders between blades of a row: the flow goes on at the other
 };
 
-/// Returns whether a marker of this kind counts as a wall: unless it is a far field or a symmetry.
+/// Returns whether a marker of this kind counts as a wall: unless it is a far field, a symmetry or periodic.
 constexpr bool may_be_wall(MarkerKind kind) { return kind == MarkerKind::wall || kind == MarkerKind::other; }
 
 /// Returns the name that lamina gives a marker of this kind in place of one that not every format, solver and shell

@@ -187,7 +187,7 @@ SharedMesh mesh_of_arrays(const PointsArgument& points, const RowsArgument<std::
     mesh.quads = cells_of<Quad, 4>(quads);
     mesh.constraints = cells_of<Segment, 2>(constraints);
     for (const auto& [name, kind, edges] : markers) {
-        if (kind < 0 || kind > static_cast<int>(MarkerKind::other))
+        if (kind < 0 || kind > static_cast<int>(MarkerKind::periodic))
             throw InputError({}, "a marker has an unknown kind");
         mesh.markers.push_back({name, static_cast<MarkerKind>(kind), cells_of<Segment, 2>(edges)});
     }

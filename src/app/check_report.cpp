@@ -40,6 +40,8 @@ const char* kind_name(MarkerKind kind) {
             return "far field";
         case MarkerKind::symmetry:
             return "symmetry";
+        case MarkerKind::periodic:
+            return "periodic";
         case MarkerKind::other:
             break;
     }

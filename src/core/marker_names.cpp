@@ -72,7 +72,7 @@ std::string defect_of(const NamedMarker& marker) {
 }
 
 /// The beginnings of names that need one, such that the name says the kind in the order of MarkerKind.
-constexpr std::array<const char*, 4> beginnings{"wall_", "far_", "symmetry_", "marker_"};
+constexpr std::array<const char*, 5> beginnings{"wall_", "far_", "symmetry_", "marker_", "periodic_"};
 
 /// Returns a name that is legal by itself.
 std::string changed(const NamedMarker& marker) {
@@ -95,6 +95,7 @@ MarkerKind kind_of_name(std::string_view name) {
     if (letters == "farfield" || letters == "far" || letters == "inlet" || letters == "outlet")
         return MarkerKind::far_field;
     if (letters == "symmetry" || letters == "symmetryplane" || letters == "axis") return MarkerKind::symmetry;
+    if (letters == "periodiclower" || letters == "periodicupper") return MarkerKind::periodic;
     if (letters == "wall" || letters == "airfoil") return MarkerKind::wall;
     return MarkerKind::other;
 }

@@ -19,9 +19,17 @@ inline constexpr std::size_t max_marker_name = 32;
 /// The marker of the outer boundary.
 inline constexpr std::string_view far_field_name = "farfield";
 
+/// The markers of the borders between the blades of a row.
+inline constexpr std::string_view periodic_lower_name = "periodic_lower", periodic_upper_name = "periodic_upper";
+
 /// Returns the kind of a marker that has no kind, as in a file of a format without kinds, judged by its name. Case,
 /// punctuation and digits do not count.
 LAMINA_EXPORT MarkerKind kind_of_name(std::string_view name);
+
+/// Returns the kind of a marker that a file tells, or periodic where the file has no word for it and the name says so.
+inline MarkerKind kind_or_periodic(MarkerKind told, std::string_view name) {
+    return told == MarkerKind::other && kind_of_name(name) == MarkerKind::periodic ? MarkerKind::periodic : told;
+}
 
 /// A name that a marker is to have, and its kind.
 struct NamedMarker {

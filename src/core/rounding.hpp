@@ -33,6 +33,10 @@ inline double power_of_two_below(double value) {
     return std::bit_cast<double>(std::bit_cast<std::uint64_t>(value) & exponent_bits);
 }
 
+/// Returns the step of coordinates on the borders of a row of blades of this pitch, of which the pitch is a multiple once it
+/// is rounded to it. Their sums with the pitch then are exact up to 4096 pitches from the origin.
+inline double border_step(double pitch) { return 0x1p-40 * power_of_two_below(pitch); }
+
 /// Returns a place on a piece of a curve, as a share of the piece, rounded to about a thousandth of an edge, given the
 /// share of the piece that an edge there takes. What is within that of an end of the piece is this end. A piece that is
 /// run through the other way has the same places.

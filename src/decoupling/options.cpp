@@ -92,6 +92,44 @@ Option<FarFieldOptions>& add_tunnel(OptionTableBuilder<FarFieldOptions>& table) 
          "", set, get});
 }
 
+/// Adds the options of a row of blades, one under two names: the pitch and the stagger angle.
+void add_row(OptionTableBuilder<FarFieldOptions>& table) {
+    const auto set = [](FarFieldOptions& options, const OptionValue& value) {
+        const std::string text = as_word_or_number(value, "periodic");
+        const std::vector<std::string> parts = core::split(text, ',');
+        try {
+            if (parts.size() > 2) throw UsageError("'" + text + "': a row is PITCH, or PITCH,STAGGER");
+            const Length pitch = core::parse_length(parts.front());
+            require_in_range(positive_numbers, pitch.value, "periodic");
+            const double stagger = parts.size() > 1 ? core::parse_numbers(parts[1], ',').front() : 0;
+            require_in_range(numbers_from_to(-180, 180), stagger, "periodic");
+            options.pitch = pitch;
+            options.stagger_deg = stagger;
+        } catch (const OptionError&) {
+            throw;
+        } catch (const UsageError& error) {
+            throw OptionError("periodic", error.what());
+        }
+    };
+    const auto get = [](const FarFieldOptions& options) -> std::optional<OptionValue> {
+        if (!options.pitch) return std::nullopt;
+        const std::string pitch = core::length_text(*options.pitch);
+        return options.stagger_deg == 0 ? pitch : core::concat(pitch, ",", options.stagger_deg);
+    };
+    const auto none = [](const FarFieldOptions&) -> std::optional<OptionValue> { return std::nullopt; };
+    const std::vector<std::string> other_borders{"far-field-shape", "far-field-outline", "tunnel", "ground",
+                                                 "symmetry"};
+    table
+        .add({"periodic", OptionKind::word, "PITCH[,STAGGER]",
+              "the configuration is a blade of an endless row along y, at this distance from the next; STAGGER turns it "
+              "counter-clockwise from the axial direction x, in degrees, and alpha is the angle of the inlet flow",
+              "", set, get})
+        .excludes = other_borders;
+    std::vector<std::string> all = other_borders;
+    all.push_back("periodic");
+    table.add({"cascade", OptionKind::word, "PITCH[,STAGGER]", "the same as periodic", "", set, none}).excludes = all;
+}
+
 }  // namespace
 
 template <>
@@ -146,6 +184,7 @@ OptionTable<FarFieldOptions> option_rows() {
         .excludes = {"far-field-shape", "far-field-outline", "tunnel", "ground"};
     table.flag("axisymmetric", "the line of symmetry, y = 0, is the axis of bodies of revolution", true,
                member_at(&FarFieldOptions::axisymmetric));
+    add_row(table);
     return table.take();
 }
 template LAMINA_EXPORT const OptionTable<FarFieldOptions>& option_table();
@@ -179,6 +218,10 @@ void validate(const FarFieldOptions& options) {
                           "needs the far field to be a box");
     if (options.symmetry && (options.tunnel || options.ground))
         throw OptionError("symmetry", "is the border below, where no ground or tunnel can be");
+    if (options.pitch && (options.shape != FarFieldShape::box || options.tunnel || options.ground || options.symmetry))
+        throw OptionError("periodic", "is the border above and below, where no ground, tunnel, line of symmetry or "
+                                      "other far field can be");
+    if (options.stagger_deg != 0 && !options.pitch) throw OptionError("periodic", "a stagger angle needs a pitch");
     if (options.axisymmetric && options.symmetry != 0.0)
         throw OptionError("axisymmetric", "needs symmetry 0, the axis of flow solvers: shift the configuration");
     if (options.tunnel_upstream.has_value() != options.tunnel_downstream.has_value())

@@ -21,8 +21,8 @@ double rounded_arc_length(double s, double segment, double total) {
 
 /// Divides a curve of length `total` into segments with equal shares of the integral of ds / h, and returns the points
 /// between them. curve(s) is the point at arc length s. The integral is the trapezoidal sum over steps of about h / 8.
-template <class Curve>
-std::vector<Point> equidistribute(const Curve& curve, double total, const SizeField& size, std::size_t min_segments) {
+template <class Curve, class Size>
+std::vector<Point> equidistribute(const Curve& curve, double total, const Size& size, std::size_t min_segments) {
     constexpr double steps_in_h = 8;
     std::vector<double> arc_length{0}, integral{0};  // the integral up to each arc length
     double h = size(curve(0)), inverse = 1 / h;
@@ -67,6 +67,21 @@ std::vector<Point> divide_separator(Point u, Point v, const SizeField& of_region
         equidistribute([&](double s) { return from + (s / total) * (to - from); }, total, size, min_segments);
     if (!forward) std::reverse(points.begin(), points.end());
     return points;
+}
+
+std::vector<Point> divide_curve(std::span<const Point> curve, const SizeField& size, Point to_copy,
+                                std::size_t min_segments) {
+    std::vector<double> arc_length{0};
+    for (std::size_t i = 1; i < curve.size(); ++i)
+        arc_length.push_back(arc_length.back() + distance(curve[i - 1], curve[i]));
+    const auto at = [&](double s) {
+        const auto after = std::upper_bound(arc_length.begin() + 1, arc_length.end() - 1, s);
+        const auto i = static_cast<std::size_t>(after - arc_length.begin());
+        return curve[i - 1] +
+               ((s - arc_length[i - 1]) / (arc_length[i] - arc_length[i - 1])) * (curve[i] - curve[i - 1]);
+    };
+    const auto smaller = [&](Point p) { return std::min(size(p), size(p + to_copy)); };
+    return equidistribute(at, arc_length.back(), smaller, min_segments);
 }
 
 std::vector<Point> divide_circle(Point center, double radius, const SizeField& size, std::size_t min_segments) {

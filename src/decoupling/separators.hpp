@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include <lamina/point.hpp>
@@ -14,6 +15,11 @@ namespace lamina::decoupling {
 /// have the length of the edges that refinement makes on either side, and grow as the field does. Both directions of a
 /// line give the same points.
 std::vector<Point> divide_separator(Point u, Point v, const SizeField& size, std::size_t min_segments = 1);
+
+/// Divides a curve, given by points near to each other, as a separator is divided, by the smaller size of both at a point and
+/// at its copy that is moved by `to_copy`. Returns the points between its ends.
+std::vector<Point> divide_curve(std::span<const Point> curve, const SizeField& size, Point to_copy,
+                                std::size_t min_segments);
 
 /// The least number of segments of a side of the far field.
 inline constexpr std::size_t min_segments_of_side = 3;

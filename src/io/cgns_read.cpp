@@ -196,7 +196,8 @@ private:
             DataType_t normal_type;
             require(cg_boco_info(file_, 1, 1, c, name, &type, &set, &points, normal_index, &normals, &normal_type,
                                  &data_sets));
-            conditions_.push_back({name, kind_of(type == FamilySpecified ? condition_of_family(c) : type), {}});
+            const MarkerKind kind = kind_of(type == FamilySpecified ? condition_of_family(c) : type);
+            conditions_.push_back({name, core::kind_or_periodic(kind, name), {}});
             GridLocation_t location;
             require(cg_boco_gridlocation_read(file_, 1, 1, c, &location));
             const bool lists_elements =

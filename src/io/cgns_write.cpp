@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,6 +31,7 @@
 #include "io/cgns_lock.hpp"
 #include "io/formats.hpp"
 #include "io/mesh_parts.hpp"
+#include "mesh/periodic.hpp"
 
 namespace lamina::io {
 
@@ -50,6 +52,7 @@ BCType_t condition_of(MarkerKind kind) {
             return BCFarfield;
         case MarkerKind::symmetry:
             return BCSymmetryPlane;
+        case MarkerKind::periodic:
         case MarkerKind::other:
             break;
     }
@@ -88,6 +91,7 @@ public:
             write_sections();
             write_boundary_conditions();
             if (extrusion_ != nullptr && extrusion_->periodic) write_periodic_planes();
+            write_periodic_borders();
         } catch (...) {
             cg_close(file_);
             throw;
@@ -243,20 +247,38 @@ private:
             first[i] = static_cast<cgsize_t>(i + 1);
             last[i] = static_cast<cgsize_t>(layers() * n + i + 1);
         }
-        const auto connect = [&](const char* name, const std::vector<cgsize_t>& own, const std::vector<cgsize_t>& donor,
-                                 double depth) {
-            const auto count = static_cast<cgsize_t>(n);
-            const float no_turn[3] = {0, 0, 0}, shift[3] = {0, 0, static_cast<float>(depth)};
-            int number = 0;
-            require(cg_conn_write(file_, base_, zone_, name, Vertex, Abutting1to1, PointList, count, own.data(), "Zone",
-                                  Unstructured, PointListDonor, DataTypeNull, count, donor.data(), &number));
-            require(cg_conn_periodic_write(file_, base_, zone_, number, no_turn, no_turn, shift));
-            write_units(number, "RotationCenter", length_dimension);
-            write_units(number, "RotationAngle", angle_dimension);
-            write_units(number, "Translation", length_dimension);
-        };
-        connect(first_plane, first, last, extrusion_->length);
-        connect(last_plane, last, first, -extrusion_->length);
+        connect(first_plane, first, last, {0, 0, extrusion_->length});
+        connect(last_plane, last, first, {0, 0, -extrusion_->length});
+    }
+    /// Connects the nodes of each of two periodic borders to those of the other, in all planes.
+    void write_periodic_borders() {
+        std::optional<mesh::PeriodicMismatch> mismatch;
+        const auto pair = mesh::find_periodic_pair(mesh_.points, mesh_.markers, mismatch);
+        if (!pair) return;
+        std::vector<cgsize_t> first, second;
+        for (std::size_t plane = 0; plane < (extrusion_ != nullptr ? extrusion_->planes() : 1); ++plane)
+            for (const auto& [a, b] : pair->vertices) {
+                first.push_back(static_cast<cgsize_t>(plane * mesh_.points.size() + a.index() + 1));
+                second.push_back(static_cast<cgsize_t>(plane * mesh_.points.size() + b.index() + 1));
+            }
+        const Point t = pair->translation;
+        connect(mesh_.markers[pair->first].name.c_str(), first, second, {t.x, t.y, 0});
+        connect(mesh_.markers[pair->second].name.c_str(), second, first, {-t.x, -t.y, 0});
+    }
+    /// Connects nodes to others, which are theirs moved by `shift`.
+    void connect(const char* name, const std::vector<cgsize_t>& own, const std::vector<cgsize_t>& donor,
+                 const std::array<double, 3>& shift) {
+        const auto count = static_cast<cgsize_t>(own.size());
+        const float no_turn[3] = {0, 0, 0};
+        const float translation[3] = {static_cast<float>(shift[0]), static_cast<float>(shift[1]),
+                                      static_cast<float>(shift[2])};
+        int number = 0;
+        require(cg_conn_write(file_, base_, zone_, name, Vertex, Abutting1to1, PointList, count, own.data(), "Zone",
+                              Unstructured, PointListDonor, DataTypeNull, count, donor.data(), &number));
+        require(cg_conn_periodic_write(file_, base_, zone_, number, no_turn, no_turn, translation));
+        write_units(number, "RotationCenter", length_dimension);
+        write_units(number, "RotationAngle", angle_dimension);
+        write_units(number, "Translation", length_dimension);
     }
     /// Says what the array of a periodic connection counts.
     void write_units(int connection, const char* array, const std::array<float, 5>& dimension) {

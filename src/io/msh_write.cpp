@@ -6,7 +6,9 @@
 // in the order of the mesh, and all belong to the first surface. Elements are numbered from 1 on: the edges of the
 // markers, then the cells.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -18,6 +20,7 @@
 #include "io/mesh_parts.hpp"
 #include "io/msh_elements.hpp"
 #include "io/text_output.hpp"
+#include "mesh/periodic.hpp"
 
 namespace lamina::io {
 
@@ -59,6 +62,7 @@ public:
         if (variant_.version_4) write_entities();
         write_nodes();
         write_elements();
+        write_periodic();
     }
 
 private:
@@ -229,6 +233,33 @@ private:
                 for (std::size_t k = 0; k < block.corners; ++k) line << block.node(mesh_, i, k);
             });
         }
+    }
+
+    /// Writes which nodes of one periodic border are those of the other, moved by an affine map.
+    void write_periodic() {
+        std::optional<mesh::PeriodicMismatch> mismatch;
+        const auto pair = mesh::find_periodic_pair(mesh_.points, mesh_.markers, mismatch);
+        if (!pair) return;
+        const int slave = groups_[pair->second].entity, master = groups_[pair->first].entity;
+        const Point t = pair->translation;
+        const std::array<double, 16> affine{1, 0, 0, t.x, 0, 1, 0, t.y, 0, 0, 1, 0, 0, 0, 0, 1};
+        out_ << "$Periodic\n";
+        if (variant_.version_4 && variant_.binary) {
+            write_value(out_, std::size_t{1});
+            for (const int value : {1, slave, master}) write_value(out_, value);
+            write_value(out_, affine.size());
+            for (const double value : affine) write_value(out_, value);
+            write_value(out_, pair->vertices.size());
+            for (const auto& [first, second] : pair->vertices)
+                for (const VertexId v : {second, first}) write_value(out_, v.index() + 1);
+            out_ << '\n';
+        } else {
+            out_ << fmt::format("1\n1 {} {}\n{}{}\n{}\n", slave, master, variant_.version_4 ? "16 " : "Affine ",
+                                fmt::join(affine, " "), pair->vertices.size());
+            for (const auto& [first, second] : pair->vertices)
+                out_ << fmt::format("{} {}\n", second.index() + 1, first.index() + 1);
+        }
+        out_ << "$EndPeriodic\n";
     }
 
     MeshView mesh_;

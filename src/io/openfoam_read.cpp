@@ -38,7 +38,9 @@ struct FoamPatch {
 MarkerKind kind_of(const FoamPatch& patch) {
     if (patch.type == "wall") return MarkerKind::wall;
     if (patch.type == "symmetry" || patch.type == "symmetryPlane") return MarkerKind::symmetry;
-    return core::kind_of_name(patch.name) == MarkerKind::far_field ? MarkerKind::far_field : MarkerKind::other;
+    const MarkerKind by_name = core::kind_of_name(patch.name);
+    if (patch.type == "cyclic") return by_name == MarkerKind::periodic ? by_name : MarkerKind::other;
+    return by_name == MarkerKind::far_field ? by_name : MarkerKind::other;
 }
 
 class PolyMeshReader {

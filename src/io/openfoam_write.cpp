@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,7 @@
 #include "io/mesh_parts.hpp"
 #include "io/text_output.hpp"
 #include "mesh/partition.hpp"
+#include "mesh/periodic.hpp"
 
 namespace lamina::io {
 
@@ -62,6 +64,7 @@ const char* patch_type(MarkerKind kind) {
             return "symmetry";
         case MarkerKind::far_field:
         case MarkerKind::other:
+        case MarkerKind::periodic:
             break;
     }
     return "patch";
@@ -75,6 +78,23 @@ const Marker* axis_of(const MeshView& mesh) {
     return axis == mesh.markers.end() ? nullptr : &*axis;
 }
 
+/// Returns the periodic borders of a mesh, if it has such.
+std::optional<mesh::PeriodicPair> pair_of(const MeshView& mesh) {
+    std::optional<mesh::PeriodicMismatch> mismatch;
+    return mesh::find_periodic_pair(mesh.points, mesh.markers, mismatch);
+}
+
+/// Returns the markers with the edges of periodic borders in the same order on both, as OpenFOAM wants them.
+std::vector<Marker> markers_in_pairs(const MeshView& mesh) {
+    std::vector<Marker> markers(mesh.markers.begin(), mesh.markers.end());
+    if (const auto pair = pair_of(mesh))
+        for (std::size_t i = 0; i < pair->edges.size(); ++i) {
+            markers[pair->first].edges[i] = mesh.markers[pair->first].edges[pair->edges[i].first];
+            markers[pair->second].edges[i] = mesh.markers[pair->second].edges[pair->edges[i].second];
+        }
+    return markers;
+}
+
 class PolyMeshWriter {
 public:
     PolyMeshWriter(const MeshView& mesh, const fs::path& file, const Extrusion& extrusion)
@@ -82,7 +102,12 @@ public:
           file_(file),
           extrusion_(extrusion),
           faces_(find_faces(mesh, file, "OpenFOAM")),
-          axis_(axis_of(mesh)) {
+          axis_(axis_of(mesh)),
+          pair_(pair_of(mesh)) {
+        if (pair_) {
+            upper_first_ = faces_.internal;
+            for (std::size_t m = 0; m < pair_->second; ++m) upper_first_ += mesh.markers[m].edges.size();
+        }
         if (extrusion.cells > 1) order_faces();
         if (axis_ != nullptr) collapse_axis();
     }
@@ -225,6 +250,12 @@ private:
     }
     void put_side(LineText& line, const FoamFace& face) const {
         const VertexId a = faces_.origin(face.number), b = faces_.target(face.number);
+        if (pair_ && face.number >= upper_first_ && face.number < upper_first_ + pair_->edges.size()) {
+            // Begins with the twin of the vertex that the face on the other border begins with.
+            line.tight("4(") << node(b, face.plane) << node(b, face.plane + 1) << node(a, face.plane + 1)
+                             << node(a, face.plane);
+            return;
+        }
         const std::size_t upper_a = node(a, face.plane + 1), upper_b = node(b, face.plane + 1);
         const bool has_a = upper_a != node(a, face.plane), has_b = upper_b != node(b, face.plane);
         line.tight(has_a && has_b ? "4(" : "3(") << node(a, face.plane) << node(b, face.plane);
@@ -264,9 +295,20 @@ private:
                                        : axis_ == nullptr                             ? 2
                                                                                       : 1)
             << "\n(\n";
-        for (const Marker& marker : mesh_.markers)
-            if (&marker != axis_)
-                write_patch(marker.name, patch_type(marker.kind), extrusion_.cells * marker.edges.size());
+        const auto twin_of = [&](const Marker& marker) {
+            const bool is_first = &marker == &mesh_.markers[pair_->first];
+            const Point t = is_first ? pair_->translation : -pair_->translation;
+            return fmt::format(
+                "        neighbourPatch  {};\n        transform       translational;\n        separationVector ({} {} "
+                "0);\n        matchTolerance  0.0001;\n",
+                mesh_.markers[is_first ? pair_->second : pair_->first].name, t.x, t.y);
+        };
+        for (const Marker& marker : mesh_.markers) {
+            if (&marker == axis_) continue;
+            const bool is_cyclic = pair_ && marker.kind == MarkerKind::periodic;
+            write_patch(marker.name, is_cyclic ? "cyclic" : patch_type(marker.kind),
+                        extrusion_.cells * marker.edges.size(), is_cyclic ? twin_of(marker) : std::string());
+        }
         if (axis_ != nullptr) {
             for (const char* plane : {first_plane, last_plane}) write_patch(plane, "wedge", cells());
         } else if (extrusion_.is_plane_flow()) {
@@ -289,6 +331,8 @@ private:
     std::vector<std::uint32_t>
         order_;           ///< internal sides, and behind their number cells, for more than one cell across
     const Marker* axis_;  ///< null where the mesh becomes no wedge
+    std::optional<mesh::PeriodicPair> pair_;
+    std::size_t upper_first_ = 0;          ///< the first face of the upper one of the pair
     std::vector<std::size_t> off_axis_{};  ///< the points beside the axis, of a wedge
     std::vector<std::size_t> turned_{};    ///< per point: its node in the second plane of a wedge
 };
@@ -336,7 +380,10 @@ void check_openfoam_writable(const fs::path& file) {
 
 void write_openfoam(const MeshView& mesh, const fs::path& file, const Extrusion& extrusion, std::size_t parts) {
     require_legal_marker_names(mesh.markers, file, "OpenFOAM");
-    const PolyMeshWriter writer(mesh, file, extrusion);
+    const std::vector<Marker> markers = markers_in_pairs(mesh);
+    MeshView paired = mesh;
+    paired.markers = markers;
+    const PolyMeshWriter writer(paired, file, extrusion);
     core::write_folder_atomically(poly_mesh_folder(file), [&](const fs::path& folder) { writer.write(folder); });
     if (parts > 1) write_parts(mesh, extrusion.cells, parts, openfoam_parts_file(file));
 }

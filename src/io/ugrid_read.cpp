@@ -15,6 +15,7 @@
 #include <lamina/error.hpp>
 #include <lamina/files.hpp>
 
+#include "core/marker_names.hpp"
 #include "io/byte_reader.hpp"
 #include "io/formats.hpp"
 #include "io/mesh_parts.hpp"
@@ -50,7 +51,8 @@ std::map<int, BoundaryCondition> read_mapbc(const fs::path& file) {
     for (std::size_t i = 0; i < n; ++i) {
         const auto number = in.ascii_number<int>("number of a boundary");
         const auto code = in.ascii_number<int>("boundary condition");
-        const BoundaryCondition condition{std::string(in.rest_of_line()), kind_of_code(code)};
+        BoundaryCondition condition{std::string(in.rest_of_line()), kind_of_code(code)};
+        condition.kind = core::kind_or_periodic(condition.kind, condition.name);
         if (condition.name.empty()) in.fail("name of the boundary expected");
         if (!conditions.emplace(number, condition).second) in.fail(fmt::format("boundary {} stands twice", number));
     }

@@ -33,6 +33,7 @@ MapbcCode code_of(const MeshView& mesh, const Marker& marker) {
             for (const Segment& edge : marker.edges) box.include(mesh.points[edge.a.index()]);
             return box.width() < box.height() ? mapbc_symmetry_x : mapbc_symmetry_z;
         }
+        case MarkerKind::periodic:
         case MarkerKind::other:
             break;
     }

@@ -9,6 +9,7 @@
 #include <lamina/layers.hpp>
 
 #include "core/bounding_box.hpp"
+#include "geometry/row.hpp"
 #include "geometry/symmetry.hpp"
 #include "layers/directions/corners.hpp"
 #include "layers/directions/rays.hpp"
@@ -128,18 +129,34 @@ struct Walls {
     const Geometry& geometry;
     std::span<const OuterWall> outer;
 
-    /// Returns the numbers of the elements that have images below a line of symmetry: all others than those that it cuts,
-    /// unless it cuts none.
+    /// Returns the numbers of the elements that have images: below a line of symmetry all others than those that it cuts,
+    /// unless it cuts none; in a row all, again and again.
     std::vector<std::size_t> with_images() const {
         std::vector<std::size_t> result;
+        if (geometry.pitch) {
+            const std::size_t n = geometry.elements.size(), copies = geometry::shifts_in_row(geometry).size();
+            for (std::size_t k = 0; k < copies * n; ++k) result.push_back(k % n);
+            return result;
+        }
         for (std::size_t e = 0; e < geometry.elements.size(); ++e)
             if (!geometry.elements[e].is_mirrored) result.push_back(e);
         return result.size() < geometry.elements.size() ? result : std::vector<std::size_t>{};
     }
 };
 
-/// Adds the images of bodies in a line of symmetry.
+/// Adds the images of bodies in a line of symmetry, or their copies in a row.
 void add_images(const Walls& walls, RaySet& set) {
+    const std::size_t n = set.lines.size(), elements = set.begin.size();
+    for (const double shift : geometry::shifts_in_row(walls.geometry)) {
+        for (std::size_t i = 0; i < n; ++i) {
+            RayLine copy = set.lines[i];
+            copy.origin = geometry::moved(copy.origin, shift);
+            copy.corner_after = geometry::moved(std::move(copy.corner_after), shift);
+            set.lines.push_back(std::move(copy));
+        }
+        for (std::size_t e = 1; e < elements; ++e) set.begin.push_back(set.lines.size() - n + set.begin[e]);
+    }
+    if (walls.geometry.pitch) return;
     for (const std::size_t e : walls.with_images()) {
         const std::size_t begin = set.begin[e], end = set.begin[e + 1];
         for (std::size_t i = end; i-- > begin;)
@@ -297,6 +314,7 @@ Rays grow_rays(const Geometry& geometry, const LayerOptions& options, const Laye
     Rays rays;
     rays.outer_walls = outer_walls.size();
     rays.images = with_images.size();
+    rays.in_row = geometry.pitch.has_value();
     rays.enabled = options.enabled;
     rays.wake_lengths.assign(elements, 0.0);
     rays.resampled.reserve(geometry.elements.size());

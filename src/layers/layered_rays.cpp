@@ -82,6 +82,7 @@ void measure_room(Rays& rays) {
     set_slants(rays.set);
     rays.asked = asked_heights(rays.set, rays.growth);
     rays.limits = height_limits(rays.set, rays.asked);
+    rays.lower_to_copies(rays.limits);
     rays.front = bounded_heights(rays);
 }
 
@@ -95,9 +96,15 @@ std::vector<double> front_heights(const Rays& rays) {
 }
 
 void fit_and_count_layers(Rays& rays) {
+    rays.lower_to_copies(rays.limits);
     rays.front = front_heights(rays);
     rays.heights = columns_up_to(rays.set, rays.growth, rays.asked, rays.front);
     rays.counts = layer_counts(rays.set, rays.heights);
+    for (std::vector<std::uint32_t> before; rays.in_row && before != rays.counts;) {
+        before = rays.counts;
+        rays.lower_to_copies(rays.counts);
+        if (rays.counts != before) rays.counts = layer_counts(rays.set, rays.heights, std::move(rays.counts));
+    }
     fit_end_spacings(rays);
 }
 

@@ -2,6 +2,7 @@
 // docs/layer.md says how rays are made.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -132,12 +133,22 @@ struct Rays {
     /// symmetry cuts it.
     std::vector<std::size_t> domain_ends;
     std::size_t outer_walls = 0;  ///< number of elements behind the bodies that are outer walls
-    std::size_t images = 0;       ///< number of last elements, images in a line of symmetry: none is in the domain
+    /// Number of last elements, images in a line of symmetry or copies in a row of blades: none is in the domain.
+    std::size_t images = 0;
+    bool in_row = false;  ///< whether images are copies in a row: as many of each element, whose rays are as high
 
     /// Returns the number of elements of which a part is in the domain.
     std::size_t shown() const { return set.elements() - images; }
     /// Returns whether an element is an outer wall.
     bool is_outer(std::size_t element) const { return element + outer_walls >= shown() && element < shown(); }
+    /// Lowers values of rays to the smallest of their copies in a row.
+    template <class T>
+    void lower_to_copies(std::vector<T>& values) const {
+        if (!in_row) return;
+        const std::size_t n = set.begin[shown()];
+        for (std::size_t i = n; i < values.size(); ++i) values[i % n] = std::min(values[i % n], values[i]);
+        for (std::size_t i = n; i < values.size(); ++i) values[i] = values[i % n];
+    }
     /// Returns the number behind the last ray of an element in the domain.
     std::size_t domain_end(std::size_t element) const { return domain_ends[element]; }
     /// Returns whether a part of an element is beyond the domain.
@@ -159,7 +170,8 @@ struct OuterWall {
 /// one layer, every cell between them is positively oriented, and the fronts are simple and disjoint. Precondition:
 /// check_simple(geometry). Throws OptionError for options out of range, for heights below the resolution of the
 /// coordinates and for layers absurdly thicker than the input is wide. Outer walls become elements behind those of the
-/// geometry. Rays of bodies with a line of symmetry are images of each other; those on the line lie in it.
+/// geometry. Rays of bodies with a line of symmetry are images of each other; those on the line lie in it. Rays of copies in
+/// a row of blades are as high as each other.
 Rays grow_rays(const Geometry& geometry, const LayerOptions& options, const LayerGrowth& growth,
                std::span<const OuterWall> outer_walls = {});
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "mesh/cell_text.hpp"
+#include "mesh/periodic.hpp"
 
 namespace lamina::mesh {
 
@@ -36,6 +37,9 @@ void check_markers(std::span<const Point> points, std::span<const Marker> marker
     }
     for (std::size_t i = 0; i < boundary.size(); ++i)
         if (!marked[i]) report(boundary[i], fmt::format("boundary edge {} is in no marker", edge_text(boundary[i])));
+    std::optional<PeriodicMismatch> mismatch;
+    find_periodic_pair(points, markers, mismatch);
+    if (mismatch) defects.add([&] { return MeshDefect{mismatch->reason, mismatch->at}; });
 }
 
 }  // namespace lamina::mesh

@@ -32,7 +32,10 @@ sizing::SizedBodies sized_bodies(const Geometry& geometry, const ReferenceCondit
 /// Returns the options of a border whose edges are to suit these sources, too.
 layers::BorderOptions border_with_sources(layers::BorderOptions border, std::span<const SizeSource> sources);
 
-/// Returns the sizes with edges short enough for a tunnel, where they do not say how long edges may be.
+/// Returns the bodies as they are in the domain: cut at a line of symmetry, or turned to a blade of a row.
+Geometry part_in_domain(Geometry geometry, const CaseOptions& options);
+
+/// Returns the sizes with edges short enough for a tunnel or a row of blades, where they do not say how long edges may be.
 SizingOptions sizes_in_tunnel(SizingOptions sizing, const FarFieldOptions& far_field, double chord, double fineness);
 
 }  // namespace lamina::pipeline

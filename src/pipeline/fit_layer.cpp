@@ -14,6 +14,7 @@
 #include "layers/mechanisms.hpp"
 #include "layers/stages.hpp"
 #include "pipeline/derived_options.hpp"
+#include "pipeline/row_border.hpp"
 #include "pipeline/wake_sizes.hpp"
 #include "sizing/requests.hpp"
 
@@ -123,6 +124,16 @@ std::vector<SizeSource> gaps_above_symmetry(const FittedLayer& fitted, std::span
     return sources;
 }
 
+/// Draws the border of a row, and repeats the requests of sizes along it.
+void request_in_row(std::span<const std::vector<Point>> fronts, FittedLayer& fitted) {
+    fitted.below = border_below(fronts, fitted.far_field);
+    std::vector<SizeSource>& at_borders = fitted.requests.at_borders;
+    for (const SizeSource& source : sizes_beside_border(fronts, fitted.below, fitted.far_field.pitch))
+        at_borders.push_back(source);
+    at_borders = repeated_in_row(std::move(at_borders), fitted.far_field);
+    fitted.requests.sources = repeated_in_row(std::move(fitted.requests.sources), fitted.far_field);
+}
+
 /// Requests the sizes that the options, the fronts of the rays and the wakes behind their layers ask for. Where a background
 /// mesh decides on sizes, wakes request them of borders alone.
 void request_sizes(SizingOptions options, FittedLayer& fitted) {
@@ -149,6 +160,7 @@ void request_sizes(SizingOptions options, FittedLayer& fitted) {
     at_borders.insert(at_borders.end(), above_symmetry.begin(), above_symmetry.end());
     if (decided) at_borders.insert(at_borders.end(), along_wakes.begin(), along_wakes.end());
     at_borders.insert(at_borders.end(), fitted.short_edges.begin(), fitted.short_edges.end());
+    if (fitted.geometry.pitch) request_in_row(std::span(fronts).first(fitted.geometry.elements.size()), fitted);
 }
 
 /// Counts the rays whose front is lower than it was at first, and finds the one that lost most of its height.

@@ -37,6 +37,7 @@ struct FittedLayer {
     std::vector<double> first_front{};      ///< of the rays, before any was shortened
     std::size_t thinned_rays = 0;           ///< MeshResult::thinned_rays
     Point thinned_at{};                     ///< MeshResult::thinned_at
+    std::vector<Point> below{};             ///< border_below() in a row of blades
     std::vector<SizeSource> short_edges{};  ///< further sizes for the edges of borders
 };
 

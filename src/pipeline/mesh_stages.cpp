@@ -12,6 +12,7 @@
 #include "decoupling/far_field.hpp"
 #include "pipeline/assemble.hpp"
 #include "pipeline/mesh_limits.hpp"
+#include "pipeline/row_border.hpp"
 #include "pipeline/warnings.hpp"
 #include "sizing/requests.hpp"
 
@@ -117,10 +118,12 @@ std::vector<double> first_heights_of_markers(const MeshResult& result, std::span
 }
 
 /// Divides the far field into inlet and outlet, if the options ask for it, and adds the markers of outer walls and of a
-/// line of symmetry that cuts bodies.
-void complete_markers(const FittedLayer& fitted, const layers::Layer& layer, std::vector<Segment> symmetry,
+/// line of symmetry that cuts bodies, or those of a row of blades.
+void complete_markers(const FittedLayer& fitted, const layers::Layer& layer, const RegionBorders& region,
                       const CaseOptions& options, MeshDriver& driver, std::span<const Point> points,
                       std::vector<Marker>& markers) {
+    if (!region.row.empty()) return add_row(region.row, markers);
+    const std::vector<Segment>& symmetry = region.symmetry;
     add_outer_walls(fitted.outer_walls, std::span(layer.edges.walls).last(layer.outer_walls), markers);
     if (!symmetry.empty()) {
         const OuterWallFacts line{symmetry_name(options.far_field), fitted.far_field.floor, OuterWallKind::slip, 0,
@@ -146,9 +149,13 @@ MadeMesh make_mesh(const FittedLayer& fitted, const CaseOptions& options, MeshDr
     clock.end(&StageSeconds::layers);
 
     clock.begin("sizing");
-    const SizeField size = sizing::make_size_field(border_loops(layer), fitted.requests.sources, options.sizing,
+    const bool in_row = fitted.far_field.pitch > 0;
+    std::vector<std::vector<Point>> loops = border_loops(layer);
+    if (in_row) loops = repeated_in_row(std::move(loops), fitted.far_field);
+    const SizeField size = sizing::make_size_field(loops, fitted.requests.sources, options.sizing,
                                                    fitted.conditions.chord, fitted.far_field.box());
-    const RegionBorders region = close_domain(layer, fitted.far_field, size);
+    const RegionBorders region = in_row ? close_row(layer, fitted.below, fitted.far_field, size)
+                                        : close_domain(layer, fitted.far_field, size);
     std::optional<RunEstimate> estimate;
     driver.lead([&] {
         estimate = estimate_within_limits(options.refine, options.sizing.gradation, layer, region, size,
@@ -164,7 +171,7 @@ MadeMesh make_mesh(const FittedLayer& fitted, const CaseOptions& options, MeshDr
     std::vector<Segment> far_field = region.far_field;
     far_field.insert(far_field.end(), borders.far_field.begin(), borders.far_field.end());
     std::vector<Marker> markers = make_markers(fitted.geometry, layer, std::move(far_field), options.assemble);
-    complete_markers(fitted, layer, region.symmetry, options, driver, borders.points, markers);
+    complete_markers(fitted, layer, region, options, driver, borders.points, markers);
     clock.end(&StageSeconds::decoupling);
 
     clock.begin("layer triangulation, refinement and check of pieces");

@@ -152,6 +152,8 @@ void validate(const CaseOptions& options) {
         if (!options.use_flow) throw OptionError("wake_layers", "needs use_flow, which finds the wakes");
         if (options.far_field.symmetry)
             throw OptionError("wake_layers", "layers do not go on along wakes beside a line of symmetry");
+        if (options.far_field.pitch)
+            throw OptionError("wake_layers", "layers do not go on along wakes behind a row of blades");
         if (options.layer.layers) throw OptionError("wake_layers", "needs layers up to isotropy: layers auto");
     }
 }
@@ -216,10 +218,19 @@ layers::BorderOptions border_with_sources(layers::BorderOptions border, std::spa
     return border;
 }
 
+Geometry part_in_domain(Geometry geometry, const CaseOptions& options) {
+    const FarFieldOptions& domain = options.far_field;
+    if (domain.symmetry) return cut_at_symmetry(std::move(geometry), *domain.symmetry);
+    if (!domain.pitch) return geometry;
+    const double chord = reference_conditions(options.conditions, reference_box(geometry)).chord;
+    return blade_row(std::move(geometry), in_units(*domain.pitch, chord), domain.stagger_deg);
+}
+
 SizingOptions sizes_in_tunnel(SizingOptions sizing, const FarFieldOptions& far_field, double chord, double fineness) {
     constexpr double edges_across = 20;
-    if (far_field.tunnel && !sizing.far_size)
-        sizing.far_size = Length{in_units(*far_field.tunnel, chord) / (edges_across * fineness), LengthUnit::input};
+    const std::optional<Length>& height = far_field.pitch ? far_field.pitch : far_field.tunnel;
+    if (height && !sizing.far_size)
+        sizing.far_size = Length{in_units(*height, chord) / (edges_across * fineness), LengthUnit::input};
     return sizing;
 }
 

@@ -51,4 +51,10 @@ void add_outer_walls(std::span<const OuterWallFacts> walls, std::span<const std:
             {walls[k].name, walls[k].kind == OuterWallKind::slip ? MarkerKind::symmetry : MarkerKind::wall, edges[k]});
 }
 
+void add_row(std::span<const Marker> row, std::vector<Marker>& markers) {
+    for (const Marker& marker : row) require_free_names(markers, {marker.name}, "periodic");
+    std::erase_if(markers, [](const Marker& marker) { return marker.kind == MarkerKind::far_field; });
+    markers.insert(markers.end(), row.begin(), row.end());
+}
+
 }  // namespace lamina::pipeline

@@ -154,7 +154,7 @@ void close_half(const layers::Layer& layer, const decoupling::FarField& far_fiel
 }  // namespace
 
 RegionBorders close_domain(const layers::Layer& layer, const decoupling::FarField& far_field, const SizeField& size) {
-    RegionBorders result{layer.points, layer.borders, layer.edges.sides, {}};
+    RegionBorders result{layer.points, layer.borders, layer.edges.sides, {}, {}};
     if (layer.outer_walls == 0) {
         if (far_field.is_half) close_half(layer, far_field, size, result);
         return result;

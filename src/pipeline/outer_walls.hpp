@@ -39,6 +39,7 @@ struct RegionBorders {
     std::vector<std::vector<VertexId>> borders;  ///< as decoupling::decouple() takes them
     std::vector<Segment> far_field;  ///< edges of the sides, beside the layer and beyond, the mesh on the left
     std::vector<Segment> symmetry;   ///< likewise those of a line of symmetry that cuts bodies
+    std::vector<Marker> row;         ///< inlet, outlet and both borders of a domain in a row of blades
 };
 
 /// Returns the name of the marker on a line of symmetry.

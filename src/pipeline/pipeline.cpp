@@ -91,9 +91,9 @@ PreparedWalls prepare_walls(const Geometry& given, const CaseOptions& options, c
 
 /// Runs all stages on a geometry.
 MadeMesh run(const Geometry& whole, CaseOptions options, MeshDriver& driver, StageClock& clock) {
-    const std::optional<double> symmetry = options.far_field.symmetry;
-    const Geometry cut = symmetry ? cut_at_symmetry(whole, *symmetry) : Geometry{};
-    const Geometry& given = symmetry ? cut : whole;
+    const bool is_part = options.far_field.symmetry || options.far_field.pitch;
+    const Geometry part = is_part ? part_in_domain(whole, options) : Geometry{};
+    const Geometry& given = is_part ? part : whole;
     const ReferenceConditions conditions = reference_conditions(options.conditions, reference_box(given));
     options.sizing = sizes_in_tunnel(std::move(options.sizing), options.far_field, conditions.chord, options.fineness);
     const WorkBudget budget{options.limits, driver.cost()};
@@ -174,7 +174,7 @@ namespace lamina {
 using namespace pipeline;
 
 Geometry prepare_geometry(Geometry geometry, const CaseOptions& options) {
-    if (options.far_field.symmetry) geometry = cut_at_symmetry(std::move(geometry), *options.far_field.symmetry);
+    geometry = part_in_domain(std::move(geometry), options);
     const ReferenceConditions conditions = reference_conditions(options.conditions, reference_box(geometry));
     const layers::LayerGrowth growth = layers::layer_growth(options.layer, conditions);
     return surface::prepare_within(std::move(geometry), options.surface, spacing_limits(options, growth),

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/segments.hpp"
+#include "geometry/row.hpp"
 
 namespace lamina::surface {
 
@@ -23,8 +24,7 @@ Point farthest_against(Point direction, const Box& box) {
 
 ClearanceSearch::ClearanceSearch(const Geometry& geometry) {
     std::vector<Box> outlines;
-    for (const Element& element : geometry.elements) {
-        const std::vector<Point>& p = element.points;
+    const auto add = [&](const std::vector<Point>& p) {
         ElementWalls& walls = elements_.emplace_back();
         std::vector<Box> boxes, normals;
         for (std::size_t i = 0; i < p.size(); ++i) {
@@ -36,7 +36,10 @@ ClearanceSearch::ClearanceSearch(const Geometry& geometry) {
         walls.tree = core::BoxTree(std::move(boxes));
         walls.normals = core::BoxTree::group_boxes(std::move(normals));
         outlines.push_back(core::bounding_box(p));
-    }
+    };
+    for (const Element& element : geometry.elements) add(element.points);
+    for (const double shift : geometry::shifts_in_row(geometry))
+        for (const Element& element : geometry.elements) add(geometry::moved(element.points, shift));
     outlines_ = core::BoxTree(std::move(outlines));
 }
 

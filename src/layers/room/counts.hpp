@@ -12,5 +12,8 @@ namespace lamina::layers {
 /// cell between neighbouring rays is positively oriented, and the fronts are simple, disjoint from each other and, except
 /// at rays without layers, from the walls.
 std::vector<std::uint32_t> layer_counts(const RaySet& set, const LayerHeights& heights);
+/// Returns the same from these numbers on, which are at most those of the columns.
+std::vector<std::uint32_t> layer_counts(const RaySet& set, const LayerHeights& heights,
+                                        std::vector<std::uint32_t> counts);
 
 }  // namespace lamina::layers

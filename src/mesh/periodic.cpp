@@ -1,0 +1,83 @@
+#include "mesh/periodic.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include <lamina/predicates.hpp>
+
+namespace lamina::mesh {
+
+namespace {
+
+/// The vertices of a border, from the left to the right, and its edges between them.
+struct Border {
+    std::vector<VertexId> vertices;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;  ///< the smaller index first
+    std::vector<std::uint32_t> order;                            ///< of the edges, ascending
+
+    Border(std::span<const Point> points, const Marker& marker) : order(marker.edges.size()) {
+        const auto before = [&](VertexId a, VertexId b) {
+            return lexicographically_less(points[a.index()], points[b.index()]);
+        };
+        for (const Segment& edge : marker.edges) vertices.insert(vertices.end(), {edge.a, edge.b});
+        std::sort(vertices.begin(), vertices.end(), before);
+        vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+        const auto place = [&](VertexId v) {
+            const auto found = std::lower_bound(vertices.begin(), vertices.end(), v, before);
+            return static_cast<std::uint32_t>(found - vertices.begin());
+        };
+        for (const Segment& edge : marker.edges) {
+            const auto [low, high] = std::minmax({place(edge.a), place(edge.b)});
+            edges.emplace_back(low, high);
+        }
+        std::iota(order.begin(), order.end(), std::uint32_t{0});
+        std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return edges[a] < edges[b]; });
+    }
+};
+
+}  // namespace
+
+std::optional<PeriodicPair> find_periodic_pair(std::span<const Point> points, std::span<const Marker> markers,
+                                               std::optional<PeriodicMismatch>& mismatch) {
+    std::vector<std::size_t> periodic;
+    for (std::size_t m = 0; m < markers.size(); ++m)
+        if (markers[m].kind == MarkerKind::periodic && !markers[m].edges.empty()) periodic.push_back(m);
+    if (periodic.empty()) return std::nullopt;
+    const auto refuse = [&](std::string reason, Point at) -> std::optional<PeriodicPair> {
+        mismatch = PeriodicMismatch{std::move(reason), at};
+        return std::nullopt;
+    };
+    const Marker& one = markers[periodic.front()];
+    if (periodic.size() != 2)
+        return refuse(fmt::format("{} markers are periodic, such as '{}', in place of two", periodic.size(), one.name),
+                      points[one.edges.front().a.index()]);
+    Border a(points, one), b(points, markers[periodic.back()]);
+    const auto at = [&](VertexId v) { return points[v.index()]; };
+    const auto lowest = [&](const Border& border) { return at(border.vertices.front()); };
+    if (lowest(b).y < lowest(a).y || (lowest(b).y == lowest(a).y && lowest(b).x < lowest(a).x)) {
+        std::swap(a, b);
+        std::swap(periodic.front(), periodic.back());
+    }
+    PeriodicPair pair{periodic.front(), periodic.back(), lowest(b) - lowest(a), {}, {}};
+    const std::string borders =
+        fmt::format("the periodic borders '{}' and '{}'", markers[pair.first].name, markers[pair.second].name);
+    if (a.vertices.size() != b.vertices.size() || a.edges.size() != b.edges.size())
+        return refuse(fmt::format("{} have {} and {} edges", borders, a.edges.size(), b.edges.size()), lowest(a));
+    for (std::size_t i = 0; i < a.vertices.size(); ++i) {
+        const Point p = at(a.vertices[i]), q = at(b.vertices[i]);
+        if (p + pair.translation != q || q - p != pair.translation)
+            return refuse(fmt::format("{} are no exact copies: vertex {} has no twin", borders, a.vertices[i].value), p);
+        pair.vertices.emplace_back(a.vertices[i], b.vertices[i]);
+    }
+    for (std::size_t i = 0; i < a.order.size(); ++i) {
+        if (a.edges[a.order[i]] != b.edges[b.order[i]])
+            return refuse(fmt::format("{} are divided in different ways", borders),
+                          at(a.vertices[a.edges[a.order[i]].first]));
+        pair.edges.emplace_back(a.order[i], b.order[i]);
+    }
+    return pair;
+}
+
+}  // namespace lamina::mesh

@@ -1,0 +1,37 @@
+// The two borders of a mesh that is one part of an endless row.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <lamina/export.hpp>
+#include <lamina/mesh.hpp>
+
+namespace lamina::mesh {
+
+/// Two markers of kind periodic that are copies of each other.
+struct PeriodicPair {
+    std::size_t first = 0, second = 0;  ///< their numbers; the copy of `first` moved by the translation is `second`
+    Point translation{};                ///< added to a vertex of `first`, it gives that of `second` exactly
+    std::vector<std::pair<VertexId, VertexId>> vertices{};        ///< twins, from the left to the right
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> edges{};  ///< twins among the edges of both, in that order
+};
+
+/// Why two borders do not fit together.
+struct PeriodicMismatch {
+    std::string reason;  ///< a sentence
+    Point at{};          ///< a vertex without a twin
+};
+
+/// Finds the pair among the markers; nothing where none is of kind periodic. Where they are no exact copies of each other,
+/// `mismatch` says why, and there is no pair.
+LAMINA_EXPORT std::optional<PeriodicPair> find_periodic_pair(std::span<const Point> points,
+                                                             std::span<const Marker> markers,
+                                                             std::optional<PeriodicMismatch>& mismatch);
+
+}  // namespace lamina::mesh

@@ -1,0 +1,214 @@
+#include "pipeline/row_border.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <lamina/error.hpp>
+
+#include "core/bounding_box.hpp"
+#include "core/box_tree.hpp"
+#include "core/marker_names.hpp"
+#include "core/reproducible_math.hpp"
+#include "core/rounding.hpp"
+#include "core/segments.hpp"
+#include "decoupling/separators.hpp"
+#include "geometry/row.hpp"
+
+namespace lamina::pipeline {
+
+namespace {
+
+constexpr std::size_t columns = 1024;
+
+/// Fills columns without outlines, between elements that are one behind the other, with what is on both sides.
+void fill_gaps(geometry::Channel& channel) {
+    for (std::size_t k = 1; k + 1 < columns; ++k) {
+        if (std::isfinite(channel.low[k])) continue;
+        std::size_t end = k;
+        while (!std::isfinite(channel.low[end])) ++end;
+        for (std::vector<double>* side : {&channel.low, &channel.high}) {
+            const double before = (*side)[k - 1], step = ((*side)[end] - before) / static_cast<double>(end - k + 1);
+            for (std::size_t i = k; i < end; ++i) (*side)[i] = before + static_cast<double>(i - k + 1) * step;
+        }
+        k = end;
+    }
+}
+
+/// Returns y of a smooth curve through the middle part of a channel, one per column.
+std::vector<double> middle_of(const geometry::Channel& channel, double pitch) {
+    constexpr double kept_share = 0.35;  // of the channel, beside each of its sides
+    std::vector<double> low, high, y;
+    for (std::size_t k = 0; k < columns; ++k) {
+        const double kept = kept_share * (channel.high[k] - channel.low[k]);
+        low.push_back(channel.low[k] + kept);
+        high.push_back(channel.high[k] - kept);
+        y.push_back(0.5 * (low.back() + high.back()));
+    }
+    // Each round takes the mean of both neighbours, which smooths over the square root of the number of rounds.
+    constexpr double smoothed_share = 0.15, most_columns = 100;
+    const double smoothed = std::min(smoothed_share * pitch / channel.width, most_columns);
+    std::vector<double> next(y);
+    for (int round = static_cast<int>(smoothed * smoothed); round > 0; --round) {
+        for (std::size_t k = 1; k + 1 < columns; ++k) next[k] = std::clamp(0.5 * (y[k - 1] + y[k + 1]), low[k], high[k]);
+        y.swap(next);
+    }
+    return y;
+}
+
+/// Adds the points of a curve that goes on from its end with this slope and turns to run along x. `forward` is 1 behind
+/// the blade and -1 ahead of it.
+void add_run_out(Point end, double slope, double length, double forward, double last_x, std::vector<Point>& curve) {
+    constexpr int steps = 48;
+    constexpr double lengths = 8;
+    for (int i = 1; i <= steps; ++i) {
+        const double t = lengths * i / steps;
+        const Point p{end.x + forward * t * length,
+                      end.y + forward * slope * length * (1 - core::exp_reproducible(-t))};
+        if (forward * (last_x - p.x) <= 0) break;
+        curve.push_back(p);
+    }
+    curve.push_back({last_x, curve.back().y});
+}
+
+/// Returns the range of whole numbers of pitches by which a box may be moved to count in the domain.
+std::pair<int, int> copies_that_count(const Box& box, const decoupling::FarField& far_field) {
+    const Box domain = far_field.box();
+    return {static_cast<int>(std::floor((domain.lower.y - box.upper.y) / far_field.pitch)),
+            static_cast<int>(std::ceil((domain.upper.y - box.lower.y) / far_field.pitch))};
+}
+
+}  // namespace
+
+std::vector<Point> border_below(std::span<const std::vector<Point>> fronts, const decoupling::FarField& far_field) {
+    constexpr double least_gap = 1e-4;  // of the pitch
+    constexpr double steepest = 3;
+    constexpr std::size_t end_columns = columns / 32;
+    const double pitch = far_field.pitch;
+    geometry::Channel channel = geometry::channel_below(fronts, pitch, columns);
+    fill_gaps(channel);
+    if (const std::size_t k = channel.narrowest(); !(channel.high[k] - channel.low[k] > least_gap * pitch))
+        throw OptionError("periodic", fmt::format("the layers of neighbouring blades close the channel between them at x = "
+                                                  "{:.4g}: raise the pitch, or ask for thinner layers",
+                                                  channel.middle(k)));
+    const std::vector<double> y = middle_of(channel, pitch);
+    const Box domain = far_field.box();
+    const auto slope_between = [&](std::size_t from, std::size_t to) {
+        const double run = static_cast<double>(to - from) * channel.width;
+        return std::clamp((y[to] - y[from]) / run, -steepest, steepest);
+    };
+    const double first_slope = slope_between(0, end_columns), last_slope = slope_between(columns - 1 - end_columns, columns - 1);
+    const double width = static_cast<double>(columns) * channel.width;
+    const auto run_out = [&](double slope) { return std::min(0.5 * pitch, width) / (1 + std::abs(slope)); };
+    std::vector<Point> curve;
+    add_run_out({channel.middle(0), y.front()}, first_slope, run_out(first_slope), -1, domain.lower.x, curve);
+    std::reverse(curve.begin(), curve.end());
+    for (std::size_t k = 0; k < columns; ++k) curve.push_back({channel.middle(k), y[k]});
+    add_run_out(curve.back(), last_slope, run_out(last_slope), 1, domain.upper.x, curve);
+    return curve;
+}
+
+std::vector<SizeSource> sizes_beside_border(std::span<const std::vector<Point>> fronts, std::span<const Point> below,
+                                            double pitch) {
+    constexpr double edge_over_gap = 0.8;
+    std::vector<std::pair<Point, Point>> edges;
+    std::vector<Box> boxes;
+    for (const double shift : {0.0, pitch})
+        for (std::size_t i = 0; i + 1 < below.size(); ++i) {
+            edges.emplace_back(geometry::moved(below[i], shift), geometry::moved(below[i + 1], shift));
+            boxes.push_back(core::bounding_box(edges.back().first, edges.back().second));
+        }
+    const core::BoxTree tree(std::move(boxes));
+    std::vector<SizeSource> sources;
+    for (const std::vector<Point>& front : fronts)
+        for (std::size_t i = 0; i < front.size(); ++i) {
+            const Point a = front[i], b = front[(i + 1) % front.size()];
+            double gap = distance(a, b) / edge_over_gap;
+            for (const Point p : {a, midpoint(a, b), b})
+                gap = tree.min_distance(p, gap, [&](std::size_t k) {
+                    return core::distance_to_segment(p, edges[k].first, edges[k].second);
+                });
+            if (const double size = edge_over_gap * gap; size < (1 - 1e-9) * distance(a, b) && size > 0)
+                sources.push_back({.a = a, .b = b, .size = size});
+        }
+    return sources;
+}
+
+std::vector<SizeSource> repeated_in_row(std::vector<SizeSource> sources, const decoupling::FarField& far_field) {
+    const std::size_t n = sources.size();
+    for (std::size_t i = 0; i < n; ++i) {
+        const auto [first, last] = copies_that_count(bounding_box(sources[i]), far_field);
+        for (int k = first; k <= last; ++k) {
+            if (k == 0) continue;
+            SizeSource copy = sources[i];
+            copy.a = geometry::moved(copy.a, k * far_field.pitch);
+            copy.b = geometry::moved(copy.b, k * far_field.pitch);
+            sources.push_back(copy);
+        }
+    }
+    return sources;
+}
+
+std::vector<std::vector<Point>> repeated_in_row(std::vector<std::vector<Point>> loops,
+                                                const decoupling::FarField& far_field) {
+    const std::size_t n = loops.size();
+    for (std::size_t i = 0; i < n; ++i) {
+        const auto [first, last] = copies_that_count(core::bounding_box(loops[i]), far_field);
+        for (int k = first; k <= last; ++k)
+            if (k != 0) loops.push_back(geometry::moved(loops[i], k * far_field.pitch));
+    }
+    return loops;
+}
+
+RegionBorders close_row(const layers::Layer& layer, std::span<const Point> below,
+                        const decoupling::FarField& far_field, const SizeField& size) {
+    const double pitch = far_field.pitch, step = core::border_step(pitch);
+    std::vector<Point> lower{below.front()};
+    for (const Point p : decoupling::divide_curve(below, size, {0, pitch}, decoupling::min_segments_of_side))
+        lower.push_back(p);
+    lower.push_back(below.back());
+    for (Point& p : lower) p.y = core::rounded_to_multiple(p.y, step);
+
+    RegionBorders result{layer.points, layer.borders, {}, {}, {}};
+    const auto add = [&](Point p) {
+        result.points.push_back(p);
+        return VertexId(result.points.size() - 1);
+    };
+    std::vector<VertexId> lower_ids, upper_ids;
+    for (const Point p : lower) lower_ids.push_back(add(p));
+    for (const Point p : lower) upper_ids.push_back(add(geometry::moved(p, pitch)));
+    // Returns the side from a vertex below to its twin above.
+    const auto side = [&](VertexId from, VertexId to) {
+        std::vector<VertexId> ids{from};
+        for (const Point p : decoupling::divide_separator(result.points[from.index()], result.points[to.index()], size,
+                                                          decoupling::min_segments_of_side))
+            ids.push_back(add(p));
+        ids.push_back(to);
+        return ids;
+    };
+    const std::vector<VertexId> inlet = side(lower_ids.front(), upper_ids.front()),
+                                outlet = side(lower_ids.back(), upper_ids.back());
+    // From the lower right corner on, clockwise.
+    std::vector<VertexId> loop(lower_ids.rbegin(), lower_ids.rend());
+    loop.insert(loop.end(), inlet.begin() + 1, inlet.end());
+    loop.insert(loop.end(), upper_ids.begin() + 1, upper_ids.end());
+    loop.insert(loop.end(), outlet.rbegin() + 1, outlet.rend() - 1);
+    result.borders.push_back(std::move(loop));
+
+    const auto marker = [](std::string_view name, MarkerKind kind, const std::vector<VertexId>& ids, bool forward) {
+        Marker edges{std::string(name), kind, {}};
+        for (std::size_t i = 0; i + 1 < ids.size(); ++i)
+            edges.edges.push_back(forward ? Segment{ids[i], ids[i + 1]} : Segment{ids[i + 1], ids[i]});
+        return edges;
+    };
+    result.row = {marker("inlet", MarkerKind::far_field, inlet, false),
+                  marker("outlet", MarkerKind::far_field, outlet, true),
+                  marker(core::periodic_lower_name, MarkerKind::periodic, lower_ids, true),
+                  marker(core::periodic_upper_name, MarkerKind::periodic, upper_ids, false)};
+    return result;
+}
+
+}  // namespace lamina::pipeline
