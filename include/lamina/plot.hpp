@@ -36,6 +36,7 @@ struct PlotOptions {
     PlotColor color = PlotColor::none;   ///< the quantity that the colours of the cells show
     std::optional<PlotWindow> window{};  ///< empty: the whole mesh
     int width_px = 1600;                 ///< longer side of the picture, in pixels
+    std::size_t repeat = 1;              ///< copies of a mesh with periodic borders to draw, joined to each other
     bool axes = false;                   ///< whether numbers beside the picture tell coordinates
     bool scale_bar = false;              ///< whether a bar in the picture tells lengths
     bool color_bar = false;              ///< whether a bar in the picture explains colours that stand for numbers

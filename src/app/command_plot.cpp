@@ -22,7 +22,7 @@ namespace {
 struct PlotArguments {
     std::string mesh, mesh_format;
     std::string picture;
-    std::string window, color, width, format;
+    std::string window, color, repeat, width, format;
     bool axes = false, scale_bar = false, color_bar = false;
 };
 
@@ -54,6 +54,7 @@ void plot(const PlotArguments& arguments) {
     PlotOptions options;
     set_by_name(option_table<PlotOptions>(), "window", arguments.window, options);
     set_by_name(option_table<PlotOptions>(), "color", arguments.color, options);
+    set_by_name(option_table<PlotOptions>(), "repeat", arguments.repeat, options);
     set_by_name(option_table<PlotOptions>(), "width", arguments.width, options);
     set_by_name(option_table<PlotOptions>(), "format", arguments.format, options);
     options.axes = arguments.axes;
@@ -90,6 +91,7 @@ void add_plot_command(CLI::App& app) {
         ->type_name("FILE");
     add_table_option(*command, option_table<PlotOptions>(), "window", arguments->window);
     add_table_option(*command, option_table<PlotOptions>(), "color", arguments->color);
+    add_table_option(*command, option_table<PlotOptions>(), "repeat", arguments->repeat);
     const auto add_flag = [&](const std::string& name, bool& flag) {
         command->add_flag("--" + name, flag, help_with_range(find_row(option_table<PlotOptions>(), name)));
     };

@@ -89,7 +89,7 @@ void apply_preferences(FlowSolver solver, MeshCase& mesh_case) {
     constexpr double gradation = 0.13;
     prefer_quads(mesh_case);
     CaseOptions& options = mesh_case.options;
-    if (!is_given(mesh_case, "far-field") && !options.far_field.tunnel)
+    if (!is_given(mesh_case, "far-field") && !options.far_field.tunnel && !options.far_field.pitch)
         options.far_field.size = Length{far_field_for(solver, options.conditions.mach.value_or(default_case_mach))};
     // Some presets have one of their own.
     if (!is_given(mesh_case, "gradation") && options.sizing.gradation == SizingOptions{}.gradation)

@@ -1,6 +1,9 @@
 // The angles of attack on the way to a large one.
 #include <cmath>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "cases/words.hpp"
 
 namespace lamina::cases {
@@ -20,6 +23,12 @@ std::vector<double> angles_to(double alpha_deg, double largest_step) {
     }
     angles.push_back(alpha_deg);
     return angles;
+}
+
+std::string angles_of(const CaseFlow& flow, double largest_step) {
+    // The flow that meets a row comes along its blades, however large its angle is.
+    if (flow.row) return fmt::format("{}", flow.alpha_deg);
+    return fmt::format("{}", fmt::join(angles_to(flow.alpha_deg, largest_step), " "));
 }
 
 }  // namespace lamina::cases

@@ -53,6 +53,41 @@ std::string moving_patches(const std::vector<std::string>& names) {
     return patches;
 }
 
+/// Returns the conditions of both borders of a row of blades, to stand before another patch.
+std::string cyclic_patches(const std::optional<BladeRow>& row) {
+    std::string patches;
+    if (row)
+        for (const std::string& name : {row->lower, row->upper})
+            patches += fmt::format("{}\n    {{\n        type            cyclic;\n    }}\n    ", name);
+    return patches;
+}
+
+/// Adds the velocity and the pressure of the far field, or of the inlet and the outlet of a row.
+void add_outer_conditions(const CaseFlow& flow, Words& words) {
+    if (flow.row) {
+        words["OUTER_VELOCITY"] = fmt::format(
+            "{}\n    {{\n        type            fixedValue;\n        value           uniform $streamVelocity;\n    }}\n"
+            "    {}\n    {{\n        type            inletOutlet;\n        inletValue      uniform (0 0 0);\n"
+            "        value           uniform $streamVelocity;\n    }}",
+            inlet_name, outlet_name);
+        words["OUTER_PRESSURE"] = fmt::format(
+            "{}\n    {{\n        type            zeroGradient;\n    }}\n    {}\n    {{\n"
+            "        type            fixedValue;\n        value           uniform 0;\n    }}",
+            inlet_name, outlet_name);
+        return;
+    }
+    const std::string patches = key_of_patches(flow.far_fields);
+    words["OUTER_VELOCITY"] = fmt::format(
+        "// Allrun gives each face of the far field the free stream and the velocity of a vortex of the present lift.\n"
+        "    {}\n    {{\n        type            freestreamVelocity;\n        freestreamValue uniform $streamVelocity;\n"
+        "    }}",
+        patches);
+    words["OUTER_PRESSURE"] = fmt::format(
+        "// Allrun gives each face of the far field the pressure that belongs to the velocity there.\n"
+        "    {}\n    {{\n        type            freestreamPressure;\n        freestreamValue uniform 0;\n    }}",
+        patches);
+}
+
 /// Adds what says which solver it is, and what a gas needs.
 void add_medium(const CaseFlow& flow, Words& words) {
     words["APPLICATION"] = flow.time ? "pimpleFoam" : flow.compressible ? "rhoSimpleFoam" : "simpleFoam";
@@ -148,10 +183,10 @@ Words openfoam_words(const CaseFlow& flow) {
     words["MOVING_WALLS"] = moving_patches(flow.moving_walls);
     words["FAR_FIELDS"] = fmt::format("{}", fmt::join(flow.far_fields, " "));
     words["WALLS"] = fmt::format("{}", fmt::join(flow.walls, " "));
-    words["SYMMETRIES"] = flow.axisymmetric ? "" : symmetry_patches(flow.symmetries);
+    words["SYMMETRIES"] = (flow.axisymmetric ? "" : symmetry_patches(flow.symmetries)) + cyclic_patches(flow.row);
     words["ENDS"] = flow.axisymmetric ? "\"(z0|z1)\"" : "frontAndBack";
     words["ENDS_TYPE"] = flow.axisymmetric ? "wedge" : "empty";
-    words["VORTEX"] = flow.symmetries.empty() && flow.outer_walls.empty() ? "yes" : "no";
+    words["VORTEX"] = flow.symmetries.empty() && flow.outer_walls.empty() && !flow.row ? "yes" : "no";
     words["WALL_SURFACES"] = wall_surfaces(flow.walls);
     words["VELOCITY_VECTOR"] = vector(u, v);
     words["VELOCITY"] = number(flow.velocity);
@@ -160,7 +195,8 @@ Words openfoam_words(const CaseFlow& flow) {
     words["AREA"] = number(flow.area * (flow.axisymmetric ? io::foam_wedge_deg / 360 : io::openfoam_span));
     // At each step lift swings by 0.2 per degree before it settles.
     constexpr double step_of_angles = 1;
-    words["ANGLES"] = fmt::format("{}", fmt::join(angles_to(flow.alpha_deg, step_of_angles), " "));
+    words["ANGLES"] = angles_of(flow, step_of_angles);
+    add_outer_conditions(flow, words);
     words["DRAG_DIRECTION"] = vector(flow.direction.x, flow.direction.y);
     words["LIFT_DIRECTION"] = vector(-flow.direction.y, flow.direction.x);
     // Lift acts a quarter of the chord behind the nose of a thin section.

@@ -19,6 +19,7 @@
 #include "core/atomic_file.hpp"
 #include "core/reproducible_math.hpp"
 #include "flow/boundary_layer.hpp"
+#include "mesh/periodic.hpp"
 
 namespace lamina::cases {
 
@@ -141,6 +142,47 @@ double largest_circle(const Mesh& mesh, const std::vector<std::string>& walls) {
     return core::pi * radius * radius;
 }
 
+/// Returns the direction in which the rear of the rearmost wall points, in degrees: from the middle of its vertices about a
+/// tenth of the chord ahead of its rearmost vertex.
+double exit_angle(const Mesh& mesh, const std::vector<std::string>& walls, double chord) {
+    constexpr double nearest = 0.05, farthest = 0.15;  // in chords
+    Point rear{-HUGE_VAL, 0};
+    const Marker* rearmost = nullptr;
+    for (const Marker& marker : mesh.markers) {
+        if (!is_one_of(marker.name, walls)) continue;
+        for (const Segment& edge : marker.edges)
+            if (const Point p = mesh.points[edge.a.index()]; p.x > rear.x) {
+                rear = p;
+                rearmost = &marker;
+            }
+    }
+    Point sum{};
+    double count = 0;
+    for (const Segment& edge : rearmost->edges) {
+        const Point p = mesh.points[edge.a.index()];
+        const double share = distance(p, rear) / chord;
+        if (share < nearest || share > farthest) continue;
+        sum = sum + p;
+        ++count;
+    }
+    const Point along = count > 0 ? rear - (1 / count) * sum : Point{1, 0};
+    return along.x > 0 ? std::atan(along.y / along.x) * 180 / core::pi : 0;
+}
+
+/// Returns the row of blades that a mesh with periodic borders is a part of. Throws MeshError where the mesh has no inlet
+/// and outlet.
+std::optional<BladeRow> row_of(const Mesh& mesh, const CaseFlow& flow) {
+    std::optional<mesh::PeriodicMismatch> mismatch;
+    const auto pair = mesh::find_periodic_pair(mesh.points, mesh.markers, mismatch);
+    if (mismatch) throw MeshError(mismatch->reason, mismatch->at);
+    if (!pair) return std::nullopt;
+    if (!is_one_of(inlet_name, flow.far_fields) || !is_one_of(outlet_name, flow.far_fields) ||
+        flow.far_fields.size() != 2)
+        throw MeshError("a case of a row of blades needs a mesh with markers inlet and outlet");
+    return BladeRow{mesh.markers[pair->first].name, mesh.markers[pair->second].name, pair->translation,
+                    exit_angle(mesh, flow.walls, flow.chord)};
+}
+
 /// Returns the steps of a case in time: in one of them the stream crosses no more than one edge as long as the shortest
 /// quarter of the triangles outside the layer has them, each by its shortest edge. These are the triangles of the wake.
 TimeSteps steps_in_time(const Mesh& mesh, const CaseFlow& flow) {
@@ -188,6 +230,7 @@ CaseFlow case_flow(FlowSolver solver, const Mesh& mesh, const SolverConditions& 
     std::erase_if(flow.walls, [&](const std::string& name) { return is_one_of(name, flow.outer_walls); });
     if (flow.walls.empty()) throw MeshError("a case needs a mesh with a marker that is a wall");
     if (flow.far_fields.empty()) throw MeshError("a case needs a mesh with a marker that is a far field");
+    flow.row = row_of(mesh, flow);
     if (flow.axisymmetric) flow.area = largest_circle(mesh, flow.walls);
     if (options.unsteady) flow.time = steps_in_time(mesh, flow);
     flow.moment_point =

@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "cases/words.hpp"
+#include "core/reproducible_math.hpp"
 
 namespace lamina::cases {
 
@@ -18,10 +19,47 @@ std::string walls_with(const CaseFlow& flow, std::string_view value) {
     return fmt::format("{}", fmt::join(pairs, ", "));
 }
 
-/// Returns the speed of the free stream in m/s, as SU2 takes it: that of air at FREESTREAM_TEMPERATURE.
-double stream_speed(const CaseFlow& flow) {
-    constexpr double heat_ratio = 1.4, gas_constant = 287.058, temperature = 300;
-    return flow.mach * std::sqrt(heat_ratio * gas_constant * temperature);
+constexpr double heat_ratio = 1.4, gas_constant = 287.058, temperature = 300;  // air at FREESTREAM_TEMPERATURE
+
+/// Returns the speed of the free stream in m/s, as SU2 takes it.
+double stream_speed(const CaseFlow& flow) { return flow.mach * std::sqrt(heat_ratio * gas_constant * temperature); }
+
+/// Returns the Mach number behind a row: flow without losses keeps its mass and leaves in this direction. Where no Mach
+/// number up to 1 has so much mass in so narrow a stream, it is 1.
+double exit_mach(double mach, double alpha_deg, double exit_deg) {
+    constexpr int halvings = 60;
+    const auto mass = [](double m) { return m / std::pow(1 + 0.5 * (heat_ratio - 1) * m * m, 3); };
+    const double wanted =
+        mass(mach) * core::cos_reproducible(core::radians(alpha_deg)) / core::cos_reproducible(core::radians(exit_deg));
+    double low = 0, high = 1;
+    for (int i = 0; i < halvings; ++i) (mass(0.5 * (low + high)) < wanted ? low : high) = 0.5 * (low + high);
+    return high;
+}
+
+/// Returns the conditions at the inlet, the outlet and both borders of a row: total ones and the direction of the flow, the
+/// static pressure, and the way from one border to the other.
+std::string row_conditions(const CaseFlow& flow, const BladeRow& row) {
+    // Sutherland's law, as SU2 has it for air.
+    constexpr double viscosity = 1.716e-5, at_temperature = 273.15, constant = 110.4;
+    const double ratio = temperature / at_temperature;
+    const double mu = viscosity * ratio * std::sqrt(ratio) * (at_temperature + constant) / (temperature + constant);
+    const double density = flow.reynolds * mu / (stream_speed(flow) * flow.chord);
+    const auto total_over_static = [](double mach) { return 1 + 0.5 * (heat_ratio - 1) * mach * mach; };
+    const double total_temperature = temperature * total_over_static(flow.mach);
+    const double exponent = heat_ratio / (heat_ratio - 1);
+    const double total_pressure =
+        density * gas_constant * temperature * std::pow(total_over_static(flow.mach), exponent);
+    const double exit = exit_mach(flow.mach, flow.alpha_deg, row.exit_deg);
+    return fmt::format(
+        "% Total temperature and pressure at the inlet, and the static pressure at the outlet with which flow without losses\n"
+        "% that leaves along the rear of the blade, at {:.4g} degrees, has the Mach number above at the inlet.\n"
+        "INLET_TYPE= TOTAL_CONDITIONS\n"
+        "MARKER_INLET= ( {}, {:.10g}, {:.10g}, {:.10g}, {:.10g}, 0.0 )\n"
+        "MARKER_OUTLET= ( {}, {:.10g} )\n"
+        "MARKER_PERIODIC= ( {}, {}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, {}, {}, 0.0 )",
+        row.exit_deg, inlet_name, total_temperature, total_pressure, flow.direction.x, flow.direction.y, outlet_name,
+        total_pressure / std::pow(total_over_static(exit), exponent), row.lower, row.upper, row.translation.x,
+        row.translation.y);
 }
 
 constexpr const char* steady_comment =
@@ -110,12 +148,13 @@ Words su2_words(const CaseFlow& flow) {
     words["MOMENT_Y"] = fmt::format("{}", flow.moment_point.y);
     // SU2 goes from 10 to 15 degrees at once, too; the lift swings by half of itself then.
     constexpr double step_of_angles = 2.5;
-    words["ANGLES"] = fmt::format("{}", fmt::join(angles_to(flow.alpha_deg, step_of_angles), " "));
+    words["ANGLES"] = angles_of(flow, step_of_angles);
     add_time_options(flow, words);
     words["WALL_NAMES"] = fmt::format("{}", fmt::join(flow.walls, " "));
     words["WALLS"] = fmt::format("{}", fmt::join(flow.walls, ", "));
     words["HEAT_FLUXES"] = walls_with(flow, "0.0");
-    words["FAR_FIELDS"] = fmt::format("{}", fmt::join(flow.far_fields, ", "));
+    words["OUTER_CONDITIONS"] = flow.row ? row_conditions(flow, *flow.row)
+                                         : fmt::format("MARKER_FAR= ( {} )", fmt::join(flow.far_fields, ", "));
     words["SYMMETRIES"] = flow.symmetries.empty() ? "NONE" : fmt::format("{}", fmt::join(flow.symmetries, ", "));
     words["MOVING_WALLS"] = moving_walls(flow);
     words["WALL_FUNCTIONS"] =

@@ -18,6 +18,15 @@ struct TimeSteps {
     int times = 1;     ///< convective times to run
 };
 
+inline constexpr const char *inlet_name = "inlet", *outlet_name = "outlet";
+
+/// A row of blades, of which the mesh is one part.
+struct BladeRow {
+    std::string lower, upper;  ///< names of the markers of both borders
+    Point translation;         ///< from the one below to the one above
+    double exit_deg = 0;       ///< direction in which the rear of the blade points, to the x axis
+};
+
 /// The flow of a case with nothing left open.
 struct CaseFlow {
     double chord = 1;
@@ -38,6 +47,7 @@ struct CaseFlow {
     std::vector<std::string> outer_walls;   ///< SolverConditions::outer_walls
     std::vector<std::string> moving_walls;  ///< SolverConditions::moving_walls
     bool axisymmetric = false;              ///< SolverConditions::axisymmetric
+    std::optional<BladeRow> row{};          ///< then the far fields are `inlet` and `outlet`
     double area = 1;                        ///< that coefficients count, for a span of 1 or for a body of revolution
 
     /// Returns the names of all walls, bodies first.
@@ -54,6 +64,9 @@ inline constexpr double largest_low_mach = 0.3;
 /// Returns the angles of attack, in degrees, at which a case is solved one after the other, each from the flow at the one
 /// before and no more than a step away. The last one is the given one.
 std::vector<double> angles_to(double alpha_deg, double largest_step);
+
+/// Returns the angles at which Allrun solves a case: angles_to(), or that of the inlet flow of a row alone.
+std::string angles_of(const CaseFlow& flow, double largest_step);
 
 /// Return the words for the files of each solver.
 Words openfoam_words(const CaseFlow& flow);

@@ -414,6 +414,8 @@ private:
         }
     }
     static MarkerKind kind_of(std::size_t code, std::string_view type, std::string_view name) {
+        // What joins both borders of a row in Fluent is no type of a zone.
+        if (core::kind_of_name(name) == MarkerKind::periodic) return MarkerKind::periodic;
         for (const FluentZoneType& known : fluent_zone_types)
             if (type == known.name || (type.empty() && code == static_cast<std::size_t>(known.code))) return known.kind;
         return core::kind_of_name(name);

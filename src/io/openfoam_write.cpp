@@ -297,7 +297,7 @@ private:
             << "\n(\n";
         const auto twin_of = [&](const Marker& marker) {
             const bool is_first = &marker == &mesh_.markers[pair_->first];
-            const Point t = is_first ? pair_->translation : -pair_->translation;
+            const Point t = Point{} + (is_first ? 1.0 : -1.0) * pair_->translation;  // without -0
             return fmt::format(
                 "        neighbourPatch  {};\n        transform       translational;\n        separationVector ({} {} "
                 "0);\n        matchTolerance  0.0001;\n",

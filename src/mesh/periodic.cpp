@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include <lamina/error.hpp>
 #include <lamina/predicates.hpp>
 
 namespace lamina::mesh {
@@ -78,6 +80,67 @@ std::optional<PeriodicPair> find_periodic_pair(std::span<const Point> points, st
         pair.edges.emplace_back(a.order[i], b.order[i]);
     }
     return pair;
+}
+
+namespace {
+
+/// Adds the cells of one kind of all copies, those of one copy after those of another.
+template <class Cell, class Number>
+void add_cells(const std::vector<Cell>& cells, std::size_t copies, const Number& number, std::vector<Cell>& all) {
+    for (std::size_t copy = 0; copy < copies; ++copy)
+        for (Cell cell : cells) {
+            for (VertexId& v : cell.v) v = number(copy, v);
+            all.push_back(cell);
+        }
+}
+
+/// Returns values of cells, triangles first, for the cells of all copies.
+template <class T>
+std::vector<T> repeated_values(const std::vector<T>& values, std::size_t triangles, std::size_t copies) {
+    std::vector<T> all;
+    if (values.empty()) return all;
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(triangles);
+    for (std::size_t copy = 0; copy < copies; ++copy) all.insert(all.end(), values.begin(), middle);
+    for (std::size_t copy = 0; copy < copies; ++copy) all.insert(all.end(), middle, values.end());
+    return all;
+}
+
+}  // namespace
+
+Mesh joined_copies(const Mesh& mesh, std::size_t copies) {
+    std::optional<PeriodicMismatch> mismatch;
+    const auto pair = find_periodic_pair(mesh.points, mesh.markers, mismatch);
+    if (!pair) throw UsageError(mismatch ? mismatch->reason : "the mesh has no periodic borders, so it cannot be repeated");
+    const std::size_t n = mesh.points.size();
+    // The first border of a copy is the second one of the copy below.
+    std::vector<std::size_t> kept(copies * n);
+    std::iota(kept.begin(), kept.end(), std::size_t{0});
+    for (std::size_t copy = 0; copy + 1 < copies; ++copy)
+        for (const auto& [first, second] : pair->vertices)
+            kept[(copy + 1) * n + first.index()] = copy * n + second.index();
+    Mesh all;
+    std::vector<VertexId> numbers(copies * n);
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+        if (kept[i] != i) continue;
+        numbers[i] = VertexId(all.points.size());
+        const double steps = static_cast<double>(i / n) - static_cast<double>((copies - 1) / 2);
+        all.points.push_back(mesh.points[i % n] + steps * pair->translation);
+    }
+    const auto number = [&](std::size_t copy, VertexId v) { return numbers[kept[copy * n + v.index()]]; };
+    add_cells(mesh.triangles, copies, number, all.triangles);
+    add_cells(mesh.quads, copies, number, all.quads);
+    all.region = repeated_values(mesh.region, mesh.triangles.size(), copies);
+    all.layer = repeated_values(mesh.layer, mesh.triangles.size(), copies);
+    all.piece = repeated_values(mesh.piece, mesh.triangles.size(), copies);
+    for (std::size_t m = 0; m < mesh.markers.size(); ++m) {
+        Marker marker{mesh.markers[m].name, mesh.markers[m].kind, {}};
+        const std::size_t from = m == pair->second ? copies - 1 : 0, to = m == pair->first ? 1 : copies;
+        for (std::size_t copy = from; copy < to; ++copy)
+            for (const Segment& edge : mesh.markers[m].edges)
+                marker.edges.push_back({number(copy, edge.a), number(copy, edge.b)});
+        all.markers.push_back(std::move(marker));
+    }
+    return all;
 }
 
 }  // namespace lamina::mesh

@@ -41,6 +41,8 @@ OptionTable<PlotOptions> option_rows() {
                "part of the plane to show, in units of the input, or a place: nose, tail, slot, walls, all; nose:2 is "
                "that of the second body; else the whole mesh",
                parse_window, window_text, member_at(&PlotOptions::window));
+    table.count("repeat", "N", "copies of a periodic mesh to draw, one above the other", numbers_from_to(1, 100),
+                member_at(&PlotOptions::repeat));
     table.flag("axes", "write coordinates beside the picture", true, member_at(&PlotOptions::axes));
     table.flag("scale-bar", "draw a bar of a round length", true, member_at(&PlotOptions::scale_bar));
     table.flag("color-bar", "draw a bar that explains the colours", true, member_at(&PlotOptions::color_bar));

@@ -11,6 +11,7 @@
 
 #include <lamina/plot.hpp>
 
+#include "mesh/periodic.hpp"
 #include "plot/canvas.hpp"
 #include "plot/color.hpp"
 #include "plot/color_scale.hpp"
@@ -164,9 +165,11 @@ namespace lamina {
 
 using namespace plot;
 
-void plot_mesh(const Mesh& mesh, const fs::path& file, const PlotOptions& options) {
+void plot_mesh(const Mesh& one, const fs::path& file, const PlotOptions& options) {
     validate(options);
     check_picture_format(file, options.format);
+    const Mesh copies = options.repeat > 1 ? mesh::joined_copies(one, options.repeat) : Mesh{};
+    const Mesh& mesh = options.repeat > 1 ? copies : one;
     const PictureView view = make_view(mesh, options);
     write_picture(file, options.format, view.width, view.height,
                   [&](cairo_surface_t* surface) { draw(surface, mesh, view, options); });
