@@ -75,10 +75,11 @@ struct Flow {
 /// below a vacuum, and with the lift coefficients that follow from them. Speeds and boundary layers stay. Precondition:
 /// 0 < mach < 1. Source: T. von Karman, J. Aeronaut. Sci. 8 (1941), after H. S. Tsien.
 LAMINA_EXPORT Flow with_compressed_pressures(Flow flow, double mach);
-/// Flat walls along the free stream, as ground and ceiling.
+/// What images of the bodies stand for: flat walls along the free stream, as ground and ceiling, or a row of blades.
 struct FlowWalls {
     std::optional<double> below{};  ///< y of the wall below, in units of the input
     std::optional<double> above{};  ///< y of the wall above
+    std::optional<double> pitch{};  ///< distance along y of the copies in an endless row; the stream is that far ahead of it
 };
 
 /// Returns the potential flow round all elements, as read or as prepared, between walls if there are any, and, where a Reynolds number is given, the

@@ -266,7 +266,11 @@ void flow(const FlowArguments& arguments) {
 
     CaseOptions& options = mesh_case.options;
     options.conditions = conditions;
-    const Geometry geometry = read_geometry(mesh_case.inputs, options.geometry);
+    Geometry geometry = read_geometry(mesh_case.inputs, options.geometry);
+    if (const FarFieldOptions& domain = options.far_field; domain.pitch)
+        geometry = blade_row(
+            geometry, in_units(*domain.pitch, reference_conditions(conditions, reference_box(geometry)).chord),
+            domain.stagger_deg);
     const ReferenceConditions reference = reference_conditions(conditions, reference_box(geometry));
     print_warnings_of_reader(geometry);
     const FlowText text = solve(geometry, prepare_surfaces(geometry, options.surface, reference.chord), conditions,
@@ -291,7 +295,7 @@ void add_flow_command(CLI::App& app) {
     command->add_option("INPUT", arguments->inputs, input_help);
     for (const char* name : {"alpha", "mach", "reynolds", "velocity", "viscosity", "chord"})
         add_table_option(*command, option_table<FlowConditions>(), name, arguments->conditions[name]);
-    for (const char* name : {"ground", "tunnel"})
+    for (const char* name : {"ground", "tunnel", "periodic"})
         add_table_option(*command, option_table<FarFieldOptions>(), name, arguments->walls[name]);
     command
         ->add_option("-o,--output", arguments->table,

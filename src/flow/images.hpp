@@ -1,4 +1,4 @@
-// The images of bodies in flat walls that the flow does not cross.
+// The images of bodies in flat walls that the flow does not cross, and their copies in a row of blades.
 //
 //      body
 //   ---------- wall      a mirrored body of opposite circulation makes the wall a streamline
@@ -29,9 +29,22 @@ struct Image {
     }
 };
 
-/// Returns the images in these walls. Those in two walls have images themselves, without end, of alternating circulation:
+/// Returns the copies in an endless row. The sum over those at k and -k pitches falls as 1 / k^2; the last two stand for all
+/// beyond, so that what is left falls as 1 / k^3 and with the fourth power of the distance over the pitch.
+inline std::vector<Image> copies_in_row(double pitch) {
+    constexpr int last = 12;
+    // k^2 (1 / k^2 + 1 / (k + 1)^2 + ...) for k = last, by the Euler-Maclaurin formula
+    constexpr double share = last + 0.5 + 1 / (6.0 * last);
+    std::vector<Image> images;
+    for (int k = 1; k <= last; ++k)
+        for (const int sign : {-1, 1}) images.push_back({false, sign * k * pitch, k < last ? 1 : share});
+    return images;
+}
+
+/// Returns the images in these walls, or the copies in a row. Those in two walls have images themselves, without end, of alternating circulation:
 /// their sum ends with half of a term, so that it is in the middle of its last two values.
 inline std::vector<Image> images_in(const FlowWalls& walls) {
+    if (walls.pitch) return copies_in_row(*walls.pitch);
     if (!walls.below && !walls.above) return {};
     if (!walls.below || !walls.above) return {{true, 2 * (walls.below ? *walls.below : *walls.above), 1}};
     constexpr int last = 4;

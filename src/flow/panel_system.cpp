@@ -151,15 +151,16 @@ Bodies make_bodies(std::span<const Contour> contours, const FlowWalls& walls) {
     }
     if (walls.below) result.walls.below = (*walls.below - box.lower.y) / unit_length;
     if (walls.above) result.walls.above = (*walls.above - box.lower.y) / unit_length;
+    if (walls.pitch) result.walls.pitch = *walls.pitch / unit_length;
     return result;
 }
 
-/// Returns the strengths in the free stream, and those that each body in turn adds whose trailing edge has a unit of
-/// circulating flow round it, contrary to its Kutta condition.
+/// Returns the strengths in the free stream, those that each body in turn adds whose trailing edge has a unit of circulating
+/// flow round it, contrary to its Kutta condition, and those in a unit stream along y.
 std::vector<std::vector<double>> solve_strengths(std::span<const Body> bodies, std::span<const Image> images,
                                                  Point stream) {
     const std::size_t size = bodies.back().column + bodies.back().nodes.size() + 1;
-    std::vector<double> matrix(size * size), right_side(size);
+    std::vector<double> matrix(size * size), right_side(size), upright(size);
     std::vector<std::vector<double>> right_sides(1);
     for (const Body& at : bodies) {
         constexpr std::size_t grain = 16;
@@ -179,14 +180,16 @@ std::vector<std::vector<double>> solve_strengths(std::span<const Body> bodies, s
         for (std::size_t i = 0; i < at.nodes.size(); ++i) {
             matrix[(at.column + i) * size + constant] = -1;
             right_side[at.column + i] = -cross(stream, at.nodes[i]);
+            upright[at.column + i] = -cross({0, 1}, at.nodes[i]);
         }
         add_kutta_conditions(matrix, size, at);
-        if (!at.blunt) right_side[constant - 1] = 0;
+        if (!at.blunt) right_side[constant - 1] = upright[constant - 1] = 0;
         std::vector<double>& turning = right_sides.emplace_back(size);
         turning[constant] = 1;
         if (at.rounded) turning[constant - 1] = 1;
     }
     right_sides.front() = std::move(right_side);
+    right_sides.push_back(std::move(upright));
     return solve_dense(std::move(matrix), right_sides);
 }
 
@@ -214,6 +217,16 @@ std::vector<PanelSheet> rounded(std::vector<PanelSheet> sheets) {
     return sheets;
 }
 
+double total_circulation(std::span<const PanelSheet> sheets) {
+    double total = 0;
+    for (const PanelSheet& sheet : sheets) total += circulation(sheet);
+    return total;
+}
+
+/// Returns what the sheets of a row add to the velocity along y far ahead of it, with the opposite sign: the sheets see a
+/// stream that has it besides, so that the stream far ahead is the given one.
+double turning_of_row(std::span<const PanelSheet> sheets, double pitch) { return total_circulation(sheets) / (2 * pitch); }
+
 void add_multiple(double factor, std::span<const double> of, std::vector<double>& to) {
     for (std::size_t i = 0; i < to.size(); ++i) to[i] += factor * of[i];
 }
@@ -237,12 +250,20 @@ PanelSolution solve_panels(std::span<const Contour> contours, double alpha_deg, 
     for (const Image& image : images_in(scaled_walls)) images.push_back(image);
     std::vector<std::vector<double>> strengths = solve_strengths(bodies, images, free_stream(alpha_deg));
     PanelSolution solution{make_sheets(contours, bodies, strengths.front()), {}, walls};
+    if (walls.pitch) {
+        const double given = turning_of_row(solution.sheets, *walls.pitch),
+                     by_unit = turning_of_row(make_sheets(contours, bodies, strengths.back()), *walls.pitch);
+        std::vector<double> turned = strengths.front();
+        add_multiple(given / (1 - by_unit), strengths.back(), turned);
+        solution.sheets = make_sheets(contours, bodies, turned);
+    }
 
     // As much flow round each trailing edge as takes all circulation away.
     const std::size_t n = bodies.size();
     std::vector<double> matrix(n * n);
     std::vector<std::vector<double>> circulations{std::vector<double>(n)};
-    for (std::size_t e = 0; e < n; ++e) circulations[0][e] = -circulation(solution.sheets[e]);
+    const std::vector<PanelSheet> in_stream = make_sheets(contours, bodies, strengths.front());
+    for (std::size_t e = 0; e < n; ++e) circulations[0][e] = -circulation(in_stream[e]);
     for (std::size_t turned = 0; turned < n; ++turned) {
         const std::vector<PanelSheet> sheets = make_sheets(contours, bodies, strengths[1 + turned]);
         for (std::size_t e = 0; e < n; ++e) matrix[e * n + turned] = circulation(sheets[e]);
@@ -260,6 +281,7 @@ SheetVelocity::SheetVelocity(const Flow& flow)
 
 SheetVelocity::SheetVelocity(std::span<const PanelSheet> sheets, double alpha_deg, const FlowWalls& walls)
     : stream_(free_stream(alpha_deg)), images_(images_in(walls)) {
+    if (walls.pitch) stream_.y += turning_of_row(sheets, *walls.pitch);
     for (const PanelSheet& sheet : sheets) {
         starts_.push_back(sheet.nodes.front());
         std::vector<Panel>& panels = sheets_.emplace_back();

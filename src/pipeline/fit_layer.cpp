@@ -74,6 +74,27 @@ SizeField size_of_outer_walls(const CaseOptions& options, const Geometry& geomet
     return sizing::make_size_field(bodies.walls, sources, sizing, conditions.chord, domain);
 }
 
+/// Returns the fronts of the bodies in the domain.
+std::vector<std::vector<Point>> fronts_in_domain(const layers::Rays& rays, const Geometry& geometry) {
+    std::vector<std::vector<Point>> fronts = layers::fronts(rays);
+    fronts.resize(geometry.elements.size());
+    return fronts;
+}
+
+/// Shortens rays that leave no room for the border between blades of a row, as where they rise ahead of a nose towards the
+/// layer of the next blade. Each round halves those heights.
+void open_channel(const Geometry& geometry, layers::Rays& rays) {
+    constexpr int max_rounds = 10;
+    std::vector<std::vector<Point>> walls;
+    for (const Element& element : geometry.elements) walls.push_back(element.points);
+    for (int round = 0; round < max_rounds; ++round) {
+        const std::vector<layers::Circle> places =
+            narrow_places(fronts_in_domain(rays, geometry), walls, *geometry.pitch);
+        if (places.empty()) return;
+        layers::shorten_rays(places, rays);
+    }
+}
+
 /// Makes rays on walls, within their far field. `finer` are sources by which outer walls become finer than bodies ask
 /// for.
 FittedLayer grow_within(const CaseOptions& options, Geometry geometry, const ReferenceConditions& conditions,
@@ -87,9 +108,10 @@ FittedLayer grow_within(const CaseOptions& options, Geometry geometry, const Ref
         divided = divide_outer_walls(
             outer_walls, far_field, size_of_outer_walls(options, geometry, conditions, growth, far_field.box(), finer));
     layers::Rays rays = layers::grow_rays(geometry, options.layer, growth, divided);
-    if (options.layer.enabled)
+    if (options.layer.enabled && !geometry.pitch)
         require_room_for_layers(geometry, layers::fronts(rays), far_field, options.layer, growth);
     std::vector<double> front = rays.front;
+    if (geometry.pitch && options.layer.enabled) open_channel(geometry, rays);
     return {.geometry = std::move(geometry),
             .conditions = conditions,
             .far_field = std::move(far_field),
@@ -160,7 +182,7 @@ void request_sizes(SizingOptions options, FittedLayer& fitted) {
     at_borders.insert(at_borders.end(), above_symmetry.begin(), above_symmetry.end());
     if (decided) at_borders.insert(at_borders.end(), along_wakes.begin(), along_wakes.end());
     at_borders.insert(at_borders.end(), fitted.short_edges.begin(), fitted.short_edges.end());
-    if (fitted.geometry.pitch) request_in_row(std::span(fronts).first(fitted.geometry.elements.size()), fitted);
+    if (fitted.geometry.pitch) request_in_row(fronts_in_domain(rays, fitted.geometry), fitted);
 }
 
 /// Counts the rays whose front is lower than it was at first, and finds the one that lost most of its height.

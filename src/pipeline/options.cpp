@@ -128,6 +128,7 @@ FlowWalls flow_walls(const Geometry& geometry, const CaseOptions& options) {
     // Bodies that a line of symmetry cuts are whole in the geometry, and so make it a streamline themselves.
     if (std::isfinite(far_field.floor) && !geometry::is_cut(geometry)) walls.below = far_field.floor;
     if (std::isfinite(far_field.ceiling)) walls.above = far_field.ceiling;
+    if (far_field.pitch > 0) walls.pitch = far_field.pitch;
     return walls;
 }
 

@@ -111,6 +111,28 @@ std::vector<Point> border_below(std::span<const std::vector<Point>> fronts, cons
     return curve;
 }
 
+std::vector<layers::Circle> narrow_places(std::span<const std::vector<Point>> fronts,
+                                          std::span<const std::vector<Point>> walls, double pitch) {
+    constexpr double least_share = 0.1;
+    constexpr double reach_share = 0.05;  // of the channel between walls
+    const geometry::Channel open = geometry::channel_below(fronts, pitch, columns),
+                            bare = geometry::channel_below(walls, pitch, columns);
+    std::vector<layers::Circle> places;
+    for (std::size_t k = 0; k < columns; ++k) {
+        const double x = open.middle(k), column = std::floor((x - bare.left) / bare.width);
+        double room = pitch;
+        if (column >= 0 && column < static_cast<double>(columns)) {
+            const auto c = static_cast<std::size_t>(column);
+            room = std::min(room, bare.high[c] - bare.low[c]);
+        }
+        if (!(open.high[k] - open.low[k] < least_share * room)) continue;
+        const double radius = std::max(3 * open.width, reach_share * room);
+        places.push_back({{x, open.low[k]}, radius});
+        places.push_back({{x, open.high[k]}, radius});
+    }
+    return places;
+}
+
 std::vector<SizeSource> sizes_beside_border(std::span<const std::vector<Point>> fronts, std::span<const Point> below,
                                             double pitch) {
     constexpr double edge_over_gap = 0.8;

@@ -74,5 +74,26 @@ TEST(FlowAlongWalls, TunnelWallsRaiseTheLiftOfAPlate) {
     }
 }
 
+/// Plates that stand one above the other lift (2 pitch / (pi chord)) tanh(pi chord / (2 pitch)) times as much as one, in the
+/// mean of the streams ahead and behind. Source: F. Weinig, Die Stroemung um die Schaufeln von Turbomaschinen (1935).
+TEST(FlowThroughARow, IsThatOfPlatesOneAboveTheOther) {
+    const Outline plate = naca_airfoil("0002", 200).points;
+    const double free = solve_flow(geometry({plate}), {.alpha_deg = 4}).lift / std::sin(4 * std::numbers::pi / 180);
+    for (const double pitch : {0.7, 1.0, 2.0, 200.0}) {
+        const Flow flow = solve_flow(geometry({plate}), {.alpha_deg = 4}, {.pitch = pitch});
+        ASSERT_FALSE(flow.estimated);
+        const double alpha = 4 * std::numbers::pi / 180, circulation = flow.lift / 2;
+        const Point mean{std::cos(alpha), std::sin(alpha) - circulation / (2 * pitch)};
+        const double of_mean = flow.lift / mean.y;
+        const double expected = 2 * pitch / std::numbers::pi * std::tanh(std::numbers::pi / (2 * pitch));
+        EXPECT_NEAR(of_mean / free, expected, pitch < 100 ? 0.02 * expected : 1e-3) << pitch;
+        if (pitch > 100) continue;
+        // The given stream is that ahead; behind the row the flow is turned by the circulation over the pitch.
+        const Point ahead = flow_velocity(flow, {-2 * pitch, 0.1}), behind = flow_velocity(flow, {1 + 2 * pitch, 0.1});
+        EXPECT_NEAR(ahead.y, std::sin(alpha), 0.02 * std::sin(alpha)) << pitch;
+        EXPECT_NEAR(behind.y, std::sin(alpha) - circulation / pitch, 0.02 * std::sin(alpha)) << pitch;
+    }
+}
+
 }  // namespace
 }  // namespace lamina::test
