@@ -17,7 +17,8 @@ namespace lamina::flow {
 struct Image {
     bool is_mirrored;
     double shift;
-    double share;  ///< of the image's strength that counts
+    double share;          ///< of the image's strength that counts
+    bool in_row = false;  ///< whether it is a copy in a row
 
     /// Returns the point that lies to the bodies as p lies to the image.
     Point seen_from(Point p) const { return {p.x, (is_mirrored ? -p.y : p.y) + shift}; }
@@ -37,7 +38,7 @@ inline std::vector<Image> copies_in_row(double pitch) {
     constexpr double share = last + 0.5 + 1 / (6.0 * last);
     std::vector<Image> images;
     for (int k = 1; k <= last; ++k)
-        for (const int sign : {-1, 1}) images.push_back({false, sign * k * pitch, k < last ? 1 : share});
+        for (const int sign : {-1, 1}) images.push_back({false, sign * k * pitch, k < last ? 1 : share, true});
     return images;
 }
 

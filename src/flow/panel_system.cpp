@@ -66,6 +66,24 @@ void add_sheet(std::span<double> row, const Body& body, Point p, double times, s
     }
 }
 
+/// Adds the same of a body's copy, in a row of copies that are far away: by two points of Gauss on each panel, and with
+/// logarithms of distances over the shift. The integrals of add_sheet() are differences of numbers as large as the square of
+/// the distance.
+void add_far_copy(std::span<double> row, const Body& body, Point p, const Image& copy) {
+    const double in_square = 1 / (copy.shift * copy.shift);
+    const Point from = copy.seen_from(p);
+    constexpr double half_span = 0.28867513459481288;  // of the points, 1 / sqrt(12)
+    for (std::size_t j = 0; j + 1 < body.nodes.size(); ++j)
+        for (const double t : {0.5 - half_span, 0.5 + half_span}) {
+            const Point at = body.nodes[j] + t * (body.nodes[j + 1] - body.nodes[j]);
+            const double logarithm = 0.5 * core::log_reproducible(squared_length(at - from) * in_square);
+            const double value =
+                copy.stream_function_factor() / (2 * core::pi) * 0.5 * body.lengths[j] * logarithm;
+            row[body.column + j] -= (1 - t) * value;
+            row[body.column + j + 1] -= t * value;
+        }
+}
+
 /// Returns the stream function of the base of a body at a point for unit speed at its trailing edge. That of sources
 /// needs the angle of the direction from the base's first end to the point, measured from the base, which must not
 /// jump along a body. `is_at_start` marks that end, where there is no such angle.
@@ -155,6 +173,9 @@ Bodies make_bodies(std::span<const Contour> contours, const FlowWalls& walls) {
     return result;
 }
 
+/// Copies in a row farther away than this, in extents of the configuration, count as add_far_copy() says.
+constexpr double far_away = 4;
+
 /// Returns the strengths in the free stream, those that each body in turn adds whose trailing edge has a unit of circulating
 /// flow round it, contrary to its Kutta condition, and those in a unit stream along y.
 std::vector<std::vector<double>> solve_strengths(std::span<const Body> bodies, std::span<const Image> images,
@@ -169,8 +190,12 @@ std::vector<std::vector<double>> solve_strengths(std::span<const Body> bodies, s
             for (std::size_t i = begin; i < end; ++i) {
                 const std::span<double> row = std::span(matrix).subspan((at.column + i) * size, size);
                 for (const Image& image : images)
-                    for (const Body& of : bodies)
-                        add_sheet(row, of, image.seen_from(at.nodes[i]), image.stream_function_factor(), seen);
+                    for (const Body& of : bodies) {
+                        if (image.in_row && std::abs(image.shift) > far_away)
+                            add_far_copy(row, of, at.nodes[i], image);
+                        else
+                            add_sheet(row, of, image.seen_from(at.nodes[i]), image.stream_function_factor(), seen);
+                    }
             }
         });
         for (const Image& image : images)

@@ -85,7 +85,8 @@ TEST(BladeRow, NeighboursShareTheRoom) {
     const MeshResult result = generate_mesh({"naca:3410"}, options);
     expect_periodic(result.mesh, 0.3);
     EXPECT_EQ(result.check.isotropic.unexcused(), 0u);
-    EXPECT_GT(result.layer_coverage.front().made_share(), 0.7);
+    const LayerCoverage& layer = result.layer_coverage.front().all;
+    EXPECT_GT(static_cast<double>(layer.made_cells), 0.7 * static_cast<double>(layer.requested_cells));
 }
 
 TEST(BladeRow, HoldsSeveralElements) {
