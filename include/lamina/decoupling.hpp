@@ -59,7 +59,7 @@ struct FarFieldOptions {
     std::optional<OuterLayers> ground_layers{};        ///< on it; empty: as on the bodies
     /// The line y = Y, in units of the input, that cuts bodies and domain: what is above is kept.
     std::optional<double> symmetry{};
-    bool axisymmetric = false;  ///< whether that line is the axis of a body of revolution
+    bool axisymmetric = false;      ///< whether that line is the axis of a body of revolution
     std::optional<Length> pitch{};  ///< distance along y of the blades of a row, of which the configuration is one
     double stagger_deg = 0;         ///< by which it is turned counter-clockwise about the origin, from the axis x
 };

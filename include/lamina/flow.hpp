@@ -79,7 +79,8 @@ LAMINA_EXPORT Flow with_compressed_pressures(Flow flow, double mach);
 struct FlowWalls {
     std::optional<double> below{};  ///< y of the wall below, in units of the input
     std::optional<double> above{};  ///< y of the wall above
-    std::optional<double> pitch{};  ///< distance along y of the copies in an endless row; the stream is that far ahead of it
+    std::optional<double>
+        pitch{};  ///< distance along y of the copies in an endless row; the stream is that far ahead of it
 };
 
 /// Returns the potential flow round all elements, as read or as prepared, between walls if there are any, and, where a Reynolds number is given, the

@@ -130,6 +130,11 @@ def mesh(
     symmetry: float | None = None,
     # the line of symmetry, y = 0, is the axis of bodies of revolution
     axisymmetric: bool | None = None,
+    # the configuration is a blade of an endless row along y, at this distance from the next; STAGGER turns it
+    # counter-clockwise from the axial direction x, in degrees, and alpha is the angle of the inlet flow
+    periodic: str | float | Sequence[float] | None = None,
+    # the same as periodic
+    cascade: str | float | Sequence[float] | None = None,
     # growth of the edge length per unit of distance; > 0 and <= 1 [0.1]
     gradation: float | None = None,
     # largest edge length at the outer border of the layer; else the edges of the border decide; > 0

@@ -268,9 +268,9 @@ void flow(const FlowArguments& arguments) {
     options.conditions = conditions;
     Geometry geometry = read_geometry(mesh_case.inputs, options.geometry);
     if (const FarFieldOptions& domain = options.far_field; domain.pitch)
-        geometry = blade_row(
-            geometry, in_units(*domain.pitch, reference_conditions(conditions, reference_box(geometry)).chord),
-            domain.stagger_deg);
+        geometry = blade_row(geometry,
+                             in_units(*domain.pitch, reference_conditions(conditions, reference_box(geometry)).chord),
+                             domain.stagger_deg);
     const ReferenceConditions reference = reference_conditions(conditions, reference_box(geometry));
     print_warnings_of_reader(geometry);
     const FlowText text = solve(geometry, prepare_surfaces(geometry, options.surface, reference.chord), conditions,

@@ -66,7 +66,8 @@ std::string cyclic_patches(const std::optional<BladeRow>& row) {
 void add_outer_conditions(const CaseFlow& flow, Words& words) {
     if (flow.row) {
         words["OUTER_VELOCITY"] = fmt::format(
-            "{}\n    {{\n        type            fixedValue;\n        value           uniform $streamVelocity;\n    }}\n"
+            "{}\n    {{\n        type            fixedValue;\n        value           uniform $streamVelocity;\n    "
+            "}}\n"
             "    {}\n    {{\n        type            inletOutlet;\n        inletValue      uniform (0 0 0);\n"
             "        value           uniform $streamVelocity;\n    }}",
             inlet_name, outlet_name);
@@ -79,7 +80,8 @@ void add_outer_conditions(const CaseFlow& flow, Words& words) {
     const std::string patches = key_of_patches(flow.far_fields);
     words["OUTER_VELOCITY"] = fmt::format(
         "// Allrun gives each face of the far field the free stream and the velocity of a vortex of the present lift.\n"
-        "    {}\n    {{\n        type            freestreamVelocity;\n        freestreamValue uniform $streamVelocity;\n"
+        "    {}\n    {{\n        type            freestreamVelocity;\n        freestreamValue uniform "
+        "$streamVelocity;\n"
         "    }}",
         patches);
     words["OUTER_PRESSURE"] = fmt::format(

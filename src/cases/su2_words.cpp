@@ -51,7 +51,8 @@ std::string row_conditions(const CaseFlow& flow, const BladeRow& row) {
         density * gas_constant * temperature * std::pow(total_over_static(flow.mach), exponent);
     const double exit = exit_mach(flow.mach, flow.alpha_deg, row.exit_deg);
     return fmt::format(
-        "% Total temperature and pressure at the inlet, and the static pressure at the outlet with which flow without losses\n"
+        "% Total temperature and pressure at the inlet, and the static pressure at the outlet with which flow without "
+        "losses\n"
         "% that leaves along the rear of the blade, at {:.4g} degrees, has the Mach number above at the inlet.\n"
         "INLET_TYPE= TOTAL_CONDITIONS\n"
         "MARKER_INLET= ( {}, {:.10g}, {:.10g}, {:.10g}, {:.10g}, 0.0 )\n"

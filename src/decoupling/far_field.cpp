@@ -120,8 +120,8 @@ FarField in_row(FarField box, const Box& bodies, double chord, const FarFieldOpt
     const bool is_default = options.size == FarFieldOptions{}.size;
     const double left =
         is_default ? bodies.lower.x - std::max(least_ahead * chord, pitches_ahead * box.pitch) : box.center.x - radius;
-    const double right =
-        is_default ? bodies.upper.x + std::max(least_behind * chord, pitches_behind * box.pitch) : box.center.x + radius;
+    const double right = is_default ? bodies.upper.x + std::max(least_behind * chord, pitches_behind * box.pitch)
+                                    : box.center.x + radius;
     const double below = bodies.lower.y - 2 * box.pitch, above = bodies.upper.y + 2 * box.pitch;
     box.shape = FarFieldShape::outline;
     box.outline = {{left, below}, {right, below}, {right, above}, {left, above}};

@@ -21,7 +21,7 @@ struct FarField {
     double ceiling = HUGE_VAL;                 ///< y of the wall above: the ceiling of a tunnel
     bool is_half = false;                      ///< whether the floor is a line of symmetry, on which bodies may stand
 
-    double pitch = 0;       ///< of a row of blades, between whose copies the domain ends; 0: there is none
+    double pitch = 0;  ///< of a row of blades, between whose copies the domain ends; 0: there is none
 
     /// Returns whether there is a wall below, and perhaps one above, or whether the domain is a part of a row. The border of
     /// the domain then is the last one of those between which the decoupling cuts: layers may stand on it.

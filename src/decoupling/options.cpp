@@ -120,10 +120,11 @@ void add_row(OptionTableBuilder<FarFieldOptions>& table) {
     const std::vector<std::string> other_borders{"far-field-shape", "far-field-outline", "tunnel", "ground",
                                                  "symmetry"};
     table
-        .add({"periodic", OptionKind::word, "PITCH[,STAGGER]",
-              "the configuration is a blade of an endless row along y, at this distance from the next; STAGGER turns it "
-              "counter-clockwise from the axial direction x, in degrees, and alpha is the angle of the inlet flow",
-              "", set, get})
+        .add(
+            {"periodic", OptionKind::word, "PITCH[,STAGGER]",
+             "the configuration is a blade of an endless row along y, at this distance from the next; STAGGER turns it "
+             "counter-clockwise from the axial direction x, in degrees, and alpha is the angle of the inlet flow",
+             "", set, get})
         .excludes = other_borders;
     std::vector<std::string> all = other_borders;
     all.push_back("periodic");
@@ -219,8 +220,9 @@ void validate(const FarFieldOptions& options) {
     if (options.symmetry && (options.tunnel || options.ground))
         throw OptionError("symmetry", "is the border below, where no ground or tunnel can be");
     if (options.pitch && (options.shape != FarFieldShape::box || options.tunnel || options.ground || options.symmetry))
-        throw OptionError("periodic", "is the border above and below, where no ground, tunnel, line of symmetry or "
-                                      "other far field can be");
+        throw OptionError("periodic",
+                          "is the border above and below, where no ground, tunnel, line of symmetry or "
+                          "other far field can be");
     if (options.stagger_deg != 0 && !options.pitch) throw OptionError("periodic", "a stagger angle needs a pitch");
     if (options.axisymmetric && options.symmetry != 0.0)
         throw OptionError("axisymmetric", "needs symmetry 0, the axis of flow solvers: shift the configuration");

@@ -17,7 +17,7 @@ namespace lamina::flow {
 struct Image {
     bool is_mirrored;
     double shift;
-    double share;          ///< of the image's strength that counts
+    double share;         ///< of the image's strength that counts
     bool in_row = false;  ///< whether it is a copy in a row
 
     /// Returns the point that lies to the bodies as p lies to the image.

@@ -77,8 +77,7 @@ void add_far_copy(std::span<double> row, const Body& body, Point p, const Image&
         for (const double t : {0.5 - half_span, 0.5 + half_span}) {
             const Point at = body.nodes[j] + t * (body.nodes[j + 1] - body.nodes[j]);
             const double logarithm = 0.5 * core::log_reproducible(squared_length(at - from) * in_square);
-            const double value =
-                copy.stream_function_factor() / (2 * core::pi) * 0.5 * body.lengths[j] * logarithm;
+            const double value = copy.stream_function_factor() / (2 * core::pi) * 0.5 * body.lengths[j] * logarithm;
             row[body.column + j] -= (1 - t) * value;
             row[body.column + j + 1] -= t * value;
         }
@@ -250,7 +249,9 @@ double total_circulation(std::span<const PanelSheet> sheets) {
 
 /// Returns what the sheets of a row add to the velocity along y far ahead of it, with the opposite sign: the sheets see a
 /// stream that has it besides, so that the stream far ahead is the given one.
-double turning_of_row(std::span<const PanelSheet> sheets, double pitch) { return total_circulation(sheets) / (2 * pitch); }
+double turning_of_row(std::span<const PanelSheet> sheets, double pitch) {
+    return total_circulation(sheets) / (2 * pitch);
+}
 
 void add_multiple(double factor, std::span<const double> of, std::vector<double>& to) {
     for (std::size_t i = 0; i < to.size(); ++i) to[i] += factor * of[i];

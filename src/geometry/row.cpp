@@ -74,19 +74,20 @@ Geometry blade_row(Geometry geometry, double pitch, double stagger_deg) {
     geometry.pitch = core::rounded_to_multiple(pitch, core::border_step(pitch));
     const Box box = bounding_box(geometry);
     if (!(std::max(std::abs(box.lower.y), std::abs(box.upper.y)) < most_pitches * pitch))
-        throw OptionError("periodic", fmt::format("the configuration is more than {} pitches away from y = 0, or as high: "
-                                                  "raise the pitch, or shift it with --transform",
-                                                  most_pitches));
+        throw OptionError("periodic",
+                          fmt::format("the configuration is more than {} pitches away from y = 0, or as high: "
+                                      "raise the pitch, or shift it with --transform",
+                                      most_pitches));
     std::vector<std::vector<Point>> outlines;
     for (const Element& element : geometry.elements) outlines.push_back(element.points);
     const geometry::Channel channel = geometry::channel_below(outlines, *geometry.pitch, columns);
     const std::size_t k = channel.narrowest();
     const double gap = channel.high[k] - channel.low[k];
     if (!(gap > least_gap * pitch))
-        throw OptionError("periodic", fmt::format("blades are {:.4g} high along y at x = {:.4g}, and the pitch is {:.4g}, "
-                                                  "so neighbours {}: raise the pitch, or change the stagger angle",
-                                                  pitch - gap, channel.middle(k), pitch,
-                                                  gap > 0 ? "touch each other" : "overlap"));
+        throw OptionError("periodic",
+                          fmt::format("blades are {:.4g} high along y at x = {:.4g}, and the pitch is {:.4g}, "
+                                      "so neighbours {}: raise the pitch, or change the stagger angle",
+                                      pitch - gap, channel.middle(k), pitch, gap > 0 ? "touch each other" : "overlap"));
     return geometry;
 }
 

@@ -13,10 +13,10 @@ namespace lamina::geometry {
 /// The room between the outlines of a blade and those of the copy below it, in columns of equal width over the extent of
 /// the blade in x.
 struct Channel {
-    double left = 0;            ///< x where the first column begins
-    double width = 0;           ///< of a column
-    std::vector<double> low;    ///< per column: the largest y of the copy below; -infinity where no outline is
-    std::vector<double> high;   ///< per column: the smallest y of the blade; infinity where no outline is
+    double left = 0;           ///< x where the first column begins
+    double width = 0;          ///< of a column
+    std::vector<double> low;   ///< per column: the largest y of the copy below; -infinity where no outline is
+    std::vector<double> high;  ///< per column: the smallest y of the blade; infinity where no outline is
 
     /// Returns x in the middle of a column.
     double middle(std::size_t column) const { return left + (static_cast<double>(column) + 0.5) * width; }

@@ -346,6 +346,11 @@ Rays grow_rays(const Geometry& geometry, const LayerOptions& options, const Laye
         for (const OuterWall& wall : outer_walls) heights.push_back(wall.first_height);
         for (const std::size_t e : with_images) heights.push_back(double(heights[e]));
     }
+    if (rays.in_row)
+        for (std::size_t k = 0; k < with_images.size(); ++k)
+            for (const WallHeight& least : growth.least_heights)
+                if (least.element == with_images[k])
+                    rays.growth.least_heights.push_back({elements - with_images.size() + k, least.at, least.height});
     grow_from(walls, {}, options, rays);
     if (options.wake_layers && !growth.layers && !growth.wakes.empty()) add_wakes(walls, options, rays);
     return rays;

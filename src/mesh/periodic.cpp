@@ -70,7 +70,8 @@ std::optional<PeriodicPair> find_periodic_pair(std::span<const Point> points, st
     for (std::size_t i = 0; i < a.vertices.size(); ++i) {
         const Point p = at(a.vertices[i]), q = at(b.vertices[i]);
         if (p + pair.translation != q || q - p != pair.translation)
-            return refuse(fmt::format("{} are no exact copies: vertex {} has no twin", borders, a.vertices[i].value), p);
+            return refuse(fmt::format("{} are no exact copies: vertex {} has no twin", borders, a.vertices[i].value),
+                          p);
         pair.vertices.emplace_back(a.vertices[i], b.vertices[i]);
     }
     for (std::size_t i = 0; i < a.order.size(); ++i) {
@@ -110,7 +111,8 @@ std::vector<T> repeated_values(const std::vector<T>& values, std::size_t triangl
 Mesh joined_copies(const Mesh& mesh, std::size_t copies) {
     std::optional<PeriodicMismatch> mismatch;
     const auto pair = find_periodic_pair(mesh.points, mesh.markers, mismatch);
-    if (!pair) throw UsageError(mismatch ? mismatch->reason : "the mesh has no periodic borders, so it cannot be repeated");
+    if (!pair)
+        throw UsageError(mismatch ? mismatch->reason : "the mesh has no periodic borders, so it cannot be repeated");
     const std::size_t n = mesh.points.size();
     // The first border of a copy is the second one of the copy below.
     std::vector<std::size_t> kept(copies * n);

@@ -18,7 +18,7 @@ namespace lamina::mesh {
 struct PeriodicPair {
     std::size_t first = 0, second = 0;  ///< their numbers; the copy of `first` moved by the translation is `second`
     Point translation{};                ///< added to a vertex of `first`, it gives that of `second` exactly
-    std::vector<std::pair<VertexId, VertexId>> vertices{};        ///< twins, from the left to the right
+    std::vector<std::pair<VertexId, VertexId>> vertices{};         ///< twins, from the left to the right
     std::vector<std::pair<std::uint32_t, std::uint32_t>> edges{};  ///< twins among the edges of both, in that order
 };
 

@@ -135,7 +135,8 @@ FlowGuidance guide_by_flow(const Geometry& geometry, const FlowWalls& walls, con
     if (flow.estimated) return guidance;
     guidance.spacings = spacings_of_flow(flow, growth);
     // Shocks are found round the bodies alone.
-    if (!walls.pitch && is_beyond_critical(flow, flow_conditions)) add_shocks(geometry, flow_conditions, growth.fineness, guidance);
+    if (!walls.pitch && is_beyond_critical(flow, flow_conditions))
+        add_shocks(geometry, flow_conditions, growth.fineness, guidance);
     return guidance;
 }
 

@@ -154,8 +154,8 @@ MadeMesh make_mesh(const FittedLayer& fitted, const CaseOptions& options, MeshDr
     if (in_row) loops = repeated_in_row(std::move(loops), fitted.far_field);
     const SizeField size = sizing::make_size_field(loops, fitted.requests.sources, options.sizing,
                                                    fitted.conditions.chord, fitted.far_field.box());
-    const RegionBorders region = in_row ? close_row(layer, fitted.below, fitted.far_field, size)
-                                        : close_domain(layer, fitted.far_field, size);
+    const RegionBorders region =
+        in_row ? close_row(layer, fitted.below, fitted.far_field, size) : close_domain(layer, fitted.far_field, size);
     std::optional<RunEstimate> estimate;
     driver.lead([&] {
         estimate = estimate_within_limits(options.refine, options.sizing.gradation, layer, region, size,

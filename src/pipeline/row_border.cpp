@@ -53,7 +53,8 @@ std::vector<double> middle_of(const geometry::Channel& channel, double pitch) {
     const double smoothed = std::min(smoothed_share * pitch / channel.width, most_columns);
     std::vector<double> next(y);
     for (int round = static_cast<int>(smoothed * smoothed); round > 0; --round) {
-        for (std::size_t k = 1; k + 1 < columns; ++k) next[k] = std::clamp(0.5 * (y[k - 1] + y[k + 1]), low[k], high[k]);
+        for (std::size_t k = 1; k + 1 < columns; ++k)
+            next[k] = std::clamp(0.5 * (y[k - 1] + y[k + 1]), low[k], high[k]);
         y.swap(next);
     }
     return y;
@@ -91,16 +92,18 @@ std::vector<Point> border_below(std::span<const std::vector<Point>> fronts, cons
     geometry::Channel channel = geometry::channel_below(fronts, pitch, columns);
     fill_gaps(channel);
     if (const std::size_t k = channel.narrowest(); !(channel.high[k] - channel.low[k] > least_gap * pitch))
-        throw OptionError("periodic", fmt::format("the layers of neighbouring blades close the channel between them at x = "
-                                                  "{:.4g}: raise the pitch, or ask for thinner layers",
-                                                  channel.middle(k)));
+        throw OptionError("periodic",
+                          fmt::format("the layers of neighbouring blades close the channel between them at x = "
+                                      "{:.4g}: raise the pitch, or ask for thinner layers",
+                                      channel.middle(k)));
     const std::vector<double> y = middle_of(channel, pitch);
     const Box domain = far_field.box();
     const auto slope_between = [&](std::size_t from, std::size_t to) {
         const double run = static_cast<double>(to - from) * channel.width;
         return std::clamp((y[to] - y[from]) / run, -steepest, steepest);
     };
-    const double first_slope = slope_between(0, end_columns), last_slope = slope_between(columns - 1 - end_columns, columns - 1);
+    const double first_slope = slope_between(0, end_columns),
+                 last_slope = slope_between(columns - 1 - end_columns, columns - 1);
     const double width = static_cast<double>(columns) * channel.width;
     const auto run_out = [&](double slope) { return std::min(0.5 * pitch, width) / (1 + std::abs(slope)); };
     std::vector<Point> curve;
@@ -185,8 +188,8 @@ std::vector<std::vector<Point>> repeated_in_row(std::vector<std::vector<Point>> 
     return loops;
 }
 
-RegionBorders close_row(const layers::Layer& layer, std::span<const Point> below,
-                        const decoupling::FarField& far_field, const SizeField& size) {
+RegionBorders close_row(const layers::Layer& layer, std::span<const Point> below, const decoupling::FarField& far_field,
+                        const SizeField& size) {
     const double pitch = far_field.pitch, step = core::border_step(pitch);
     std::vector<Point> lower{below.front()};
     for (const Point p : decoupling::divide_curve(below, size, {0, pitch}, decoupling::min_segments_of_side))

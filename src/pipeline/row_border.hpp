@@ -36,7 +36,7 @@ std::vector<std::vector<Point>> repeated_in_row(std::vector<std::vector<Point>> 
 
 /// Closes the border of a domain in a row. The border below is divided by sizes there and above, and its vertices are
 /// rounded so that those above are theirs plus the pitch, exactly.
-RegionBorders close_row(const layers::Layer& layer, std::span<const Point> below,
-                        const decoupling::FarField& far_field, const SizeField& size);
+RegionBorders close_row(const layers::Layer& layer, std::span<const Point> below, const decoupling::FarField& far_field,
+                        const SizeField& size);
 
 }  // namespace lamina::pipeline

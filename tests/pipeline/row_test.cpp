@@ -89,6 +89,17 @@ TEST(BladeRow, NeighboursShareTheRoom) {
     EXPECT_GT(static_cast<double>(layer.made_cells), 0.7 * static_cast<double>(layer.requested_cells));
 }
 
+/// Copies need the layers that the flow asks for, too, or they would take them from the blade.
+TEST(BladeRow, DistantNeighboursTakeNoLayers) {
+    CaseOptions options = row(5, 30, 42);
+    options.layer.layers.reset();
+    options.layer.first_height = YPlus{1};
+    options.conditions.reynolds = 5e5;
+    options.use_flow = true;
+    const MeshResult result = generate_mesh({"naca:6512"}, options);
+    EXPECT_EQ(result.layer_coverage.front().all.incomplete_rays, 0u);
+}
+
 TEST(BladeRow, HoldsSeveralElements) {
     const std::string folder = LAMINA_SOURCE_DIR "/examples/geometry/";
     CaseOptions options = row(0.9, 20);
@@ -167,10 +178,10 @@ TEST(BladeRow, RefusesWhatCannotBe) {
 }
 
 TEST(BladeRow, StaggerTurnsTheBladeAndKeepsTheChord) {
-    const Geometry row = blade_row(make_geometry({naca_airfoil("0012", 100)}), 1, 90);
+    const Geometry row = blade_row(make_geometry({naca_airfoil("0012", 100)}), 1.5, 90);
     EXPECT_NEAR(bounding_box(row).height(), 1, 1e-3);
     EXPECT_NEAR(reference_box(row).width(), 1, 1e-3);
-    EXPECT_EQ(*row.pitch, 1);
+    EXPECT_EQ(*row.pitch, 1.5);
 }
 
 }  // namespace
