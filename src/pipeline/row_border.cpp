@@ -12,7 +12,6 @@
 #include "core/bounding_box.hpp"
 #include "core/box_tree.hpp"
 #include "core/marker_names.hpp"
-#include "core/reproducible_math.hpp"
 #include "core/rounding.hpp"
 #include "core/segments.hpp"
 #include "decoupling/separators.hpp"
@@ -38,41 +37,50 @@ void fill_gaps(geometry::Channel& channel) {
     }
 }
 
-/// Returns y of a smooth curve through the middle part of a channel, one per column.
-std::vector<double> middle_of(const geometry::Channel& channel, double pitch) {
+/// The part of the room between blades where the border may run, in columns; and so many ahead of them and behind, where
+/// nothing is in the way.
+struct Lane {
+    std::vector<double> low, high;
+    std::size_t run_out = 0;
+};
+
+Lane lane_in(const geometry::Channel& channel, double pitch) {
     constexpr double kept_share = 0.35;  // of the channel, beside each of its sides
-    std::vector<double> low, high, y;
+    const double run = std::min(pitch, static_cast<double>(columns) * channel.width);
+    Lane lane;
+    lane.run_out = static_cast<std::size_t>(std::ceil(run / channel.width));
+    lane.low.assign(lane.run_out, -HUGE_VAL);
+    lane.high.assign(lane.run_out, HUGE_VAL);
     for (std::size_t k = 0; k < columns; ++k) {
         const double kept = kept_share * (channel.high[k] - channel.low[k]);
-        low.push_back(channel.low[k] + kept);
-        high.push_back(channel.high[k] - kept);
-        y.push_back(0.5 * (low.back() + high.back()));
+        lane.low.push_back(channel.low[k] + kept);
+        lane.high.push_back(channel.high[k] - kept);
     }
-    // Each round takes the mean of both neighbours, which smooths over the square root of the number of rounds.
-    constexpr double smoothed_share = 0.15, most_columns = 100;
-    const double smoothed = std::min(smoothed_share * pitch / channel.width, most_columns);
-    std::vector<double> next(y);
-    for (int round = static_cast<int>(smoothed * smoothed); round > 0; --round) {
-        for (std::size_t k = 1; k + 1 < columns; ++k)
-            next[k] = std::clamp(0.5 * (y[k - 1] + y[k + 1]), low[k], high[k]);
-        y.swap(next);
-    }
-    return y;
+    lane.low.resize(lane.low.size() + lane.run_out, -HUGE_VAL);
+    lane.high.resize(lane.high.size() + lane.run_out, HUGE_VAL);
+    return lane;
 }
 
-/// Adds the points of a curve that goes on from its end with this slope and turns to run along x. `forward` is 1 behind
-/// the blade and -1 ahead of it.
-void add_run_out(Point end, double slope, double length, double forward, double last_x, std::vector<Point>& curve) {
-    constexpr int steps = 48;
-    constexpr double lengths = 8;
-    for (int i = 1; i <= steps; ++i) {
-        const double t = lengths * i / steps;
-        const Point p{end.x + forward * t * length,
-                      end.y + forward * slope * length * (1 - core::exp_reproducible(-t))};
-        if (forward * (last_x - p.x) <= 0) break;
-        curve.push_back(p);
+/// Returns y of a smooth curve along a lane, one per column. It begins as its middle, and as a line along x ahead and behind.
+std::vector<double> smooth_curve(const Lane& lane, double smoothed_columns) {
+    const std::size_t n = lane.low.size();
+    const auto middle = [&](std::size_t k) { return 0.5 * (lane.low[k] + lane.high[k]); };
+    std::vector<double> y(n), next(n);
+    for (std::size_t k = 0; k < n; ++k) y[k] = middle(std::clamp(k, lane.run_out, n - lane.run_out - 1));
+    // Each round takes the mean of two columns, which smooths over their distance times the square root of the number of
+    // rounds. Shorter distances take away what longer ones leave between columns.
+    for (const std::size_t apart : {8, 4, 2, 1}) {
+        const double rounds = smoothed_columns / static_cast<double>(apart);
+        const int count = apart == 8 ? static_cast<int>(rounds * rounds) : 40;
+        for (int round = 0; round < count; ++round) {
+            for (std::size_t k = 0; k < n; ++k) {
+                const double mean = 0.5 * (y[k > apart ? k - apart : 0] + y[std::min(k + apart, n - 1)]);
+                next[k] = std::clamp(mean, lane.low[k], lane.high[k]);
+            }
+            y.swap(next);
+        }
     }
-    curve.push_back({last_x, curve.back().y});
+    return y;
 }
 
 /// Returns the range of whole numbers of pitches by which a box may be moved to count in the domain.
@@ -85,32 +93,29 @@ std::pair<int, int> copies_that_count(const Box& box, const decoupling::FarField
 }  // namespace
 
 std::vector<Point> border_below(std::span<const std::vector<Point>> fronts, const decoupling::FarField& far_field) {
-    constexpr double least_gap = 1e-4;  // of the pitch
-    constexpr double steepest = 3;
-    constexpr std::size_t end_columns = columns / 32;
+    constexpr double least_gap = 1e-4;      // of the pitch
+    constexpr double smoothed_share = 0.2;  // likewise
+    constexpr double most_smoothed = 0.3;   // of the columns
     const double pitch = far_field.pitch;
     geometry::Channel channel = geometry::channel_below(fronts, pitch, columns);
     fill_gaps(channel);
     if (const std::size_t k = channel.narrowest(); !(channel.high[k] - channel.low[k] > least_gap * pitch))
         throw OptionError("periodic",
-                          fmt::format("the layers of neighbouring blades close the channel between them at x = "
-                                      "{:.4g}: raise the pitch, or ask for thinner layers",
+                          fmt::format("the layers of neighbouring blades close the channel between them at x = {:.4g}: "
+                                      "raise the pitch, or ask for thinner layers",
                                       channel.middle(k)));
-    const std::vector<double> y = middle_of(channel, pitch);
+    const Lane lane = lane_in(channel, pitch);
+    const std::vector<double> y =
+        smooth_curve(lane, std::min(smoothed_share * pitch / channel.width, most_smoothed * columns));
     const Box domain = far_field.box();
-    const auto slope_between = [&](std::size_t from, std::size_t to) {
-        const double run = static_cast<double>(to - from) * channel.width;
-        return std::clamp((y[to] - y[from]) / run, -steepest, steepest);
-    };
-    const double first_slope = slope_between(0, end_columns),
-                 last_slope = slope_between(columns - 1 - end_columns, columns - 1);
-    const double width = static_cast<double>(columns) * channel.width;
-    const auto run_out = [&](double slope) { return std::min(0.5 * pitch, width) / (1 + std::abs(slope)); };
     std::vector<Point> curve;
-    add_run_out({channel.middle(0), y.front()}, first_slope, run_out(first_slope), -1, domain.lower.x, curve);
-    std::reverse(curve.begin(), curve.end());
-    for (std::size_t k = 0; k < columns; ++k) curve.push_back({channel.middle(k), y[k]});
-    add_run_out(curve.back(), last_slope, run_out(last_slope), 1, domain.upper.x, curve);
+    for (std::size_t k = 0; k < y.size(); ++k) {
+        const double x =
+            channel.left + (static_cast<double>(k) - static_cast<double>(lane.run_out) + 0.5) * channel.width;
+        if (x > domain.lower.x + channel.width && x < domain.upper.x - channel.width) curve.push_back({x, y[k]});
+    }
+    curve.insert(curve.begin(), {domain.lower.x, curve.front().y});
+    curve.push_back({domain.upper.x, curve.back().y});
     return curve;
 }
 

@@ -14,7 +14,7 @@
 namespace lamina::pipeline {
 
 /// Returns the border below a blade with these fronts of layers, from inlet to outlet: a smooth curve near the middle of
-/// the channel to the copy below, which goes on ahead and behind until it runs along x. Throws OptionError where layers
+/// the channel to the copy below, which runs along x ahead and behind. Throws OptionError where layers
 /// close the channel.
 std::vector<Point> border_below(std::span<const std::vector<Point>> fronts, const decoupling::FarField& far_field);
 
