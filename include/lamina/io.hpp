@@ -30,10 +30,11 @@ struct MeshFormat {
     std::string name;  ///< "msh22"
     /// With the dot, or the name of its folder; the first format that has it counts.
     std::vector<std::string> extensions;
-    std::string description;  ///< one line
-    bool readable = false;    ///< whether read_mesh() reads it
-    bool quads = true;        ///< whether it holds quadrilaterals, too
-    bool one_stream = false;  ///< whether it is one stream of bytes, which a pipe can carry
+    std::string description;        ///< one line
+    bool readable = false;          ///< whether read_mesh() reads it
+    bool quads = true;              ///< whether it holds quadrilaterals, too
+    bool one_stream = false;        ///< whether it is one stream of bytes, which a pipe can carry
+    bool internal_markers = false;  ///< whether it holds markers of lines inside the mesh; others leave them out
 };
 
 LAMINA_EXPORT std::vector<MeshFormat> mesh_formats();  ///< all formats of this build, in the order of the guide's table
@@ -53,6 +54,11 @@ struct WriteOptions {
 /// Writes a mesh. Throws UsageError, too, for marker names, and MeshError for a mesh that the format cannot hold.
 LAMINA_EXPORT void write_mesh(const MeshView& mesh, const std::filesystem::path& file,
                               const WriteOptions& options = {});
+
+/// Returns a warning where the format of this file leaves out the internal markers of a mesh, and where there are any.
+LAMINA_EXPORT std::vector<Warning> lost_marker_warnings(std::span<const Marker> markers,
+                                                        const std::filesystem::path& file,
+                                                        const WriteOptions& options = {});
 
 /// Options of read_mesh().
 struct ReadOptions {

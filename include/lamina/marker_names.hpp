@@ -21,7 +21,8 @@ enum class MarkerKind : std::uint8_t {
     far_field,  ///< the outer boundary
     symmetry,   ///< a line of symmetry
     other,      ///< unknown
-    periodic    ///< one of the two borders between blades of a row: the flow goes on at the other
+    periodic,   ///< one of the two borders between blades of a row: the flow goes on at the other
+    internal    ///< a line inside the domain, with cells on both sides: no boundary
 };
 
 /// Returns whether a marker of this kind counts as a wall: unless it is a far field, a symmetry or periodic.

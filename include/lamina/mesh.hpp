@@ -4,7 +4,9 @@
 //  1. A mesh in which check_mesh() finds no defect is valid: indices are in range; cells are counter-clockwise and have
 //     positive area; it is conforming (each directed edge is used once); it covers its domain once (signed areas, Euler
 //     characteristic, simple boundary loops, no vertex without cells, none that the boundary passes twice); each
-//     boundary edge is in exactly one marker, and each edge of a marker on the boundary. The check is exact.
+//     boundary edge is in exactly one marker, and each edge of a marker on the boundary; those of internal markers have
+//     cells on both sides. A wall without thickness is two rows of boundary edges at the same places in one marker, with
+//     vertices of their own: such edges may coincide, and nothing else. The check is exact.
 // Limits:
 //  1. Delaunay property and quality are measured, not required. Functions besides check_mesh() need indices in range.
 // Example:
@@ -31,7 +33,7 @@ enum class Region : std::uint8_t {
     isotropic  ///< all other cells
 };
 
-/// A named part of the boundary.
+/// A named part of the boundary, or a line of edges inside the mesh.
 struct Marker {
     std::string name;                     ///< unique in the mesh
     MarkerKind kind = MarkerKind::other;  ///< the boundary condition
@@ -44,7 +46,7 @@ struct Mesh {
     std::vector<Point> points{};         ///< the vertices
     std::vector<Triangle> triangles{};   ///< indices into points, counter-clockwise
     std::vector<Quad> quads{};           ///< indices into points, counter-clockwise
-    std::vector<Marker> markers{};       ///< together, all edges of the boundary
+    std::vector<Marker> markers{};       ///< those that are not internal hold, together, all edges of the boundary
     std::vector<Region> region{};        ///< per cell: its region
     std::vector<std::uint32_t> piece{};  ///< per cell: the subdomain that made it
     std::vector<std::uint16_t> layer{};  ///< per cell: number of its layer from the wall, from 1; 0 outside the layer
@@ -57,7 +59,7 @@ struct MeshView {
     std::span<const Point> points;         ///< the vertices
     std::span<const Triangle> triangles;   ///< indices into points
     std::span<const Quad> quads;           ///< indices into points
-    std::span<const Marker> markers;       ///< together, all edges of the boundary
+    std::span<const Marker> markers;       ///< as in Mesh
     std::span<const Region> region;        ///< per cell
     std::span<const std::uint32_t> piece;  ///< per cell
     std::span<const std::uint16_t> layer;  ///< per cell

@@ -33,6 +33,17 @@ struct AssembleOptions {
     bool base_marker = false;  ///< gives the base of a blunt trailing edge a marker of its own, NAME_base
 };
 
+/// A line inside the domain that becomes edges of the mesh with a marker of its own: a rake, a sensor, an actuator disc, a
+/// baffle. It may cross other lines and bodies, inside which it ends, and layers give way to it.
+struct InternalLine {
+    std::string name;             ///< of its marker
+    std::vector<Point> points{};  ///< at least two, in units of the input
+    /// Whether it is a wall without thickness, with vertices on both sides, rather than edges between cells.
+    bool two_sided = false;
+    std::optional<double> size{};  ///< requested edge length along it, in units of the input
+    std::string file{};            ///< that the points come from; empty where they are given by themselves
+};
+
 /// The options of all stages, with the defaults of the command line.
 struct CaseOptions {
     GeometryOptions geometry{};            ///< read_geometry()
@@ -53,6 +64,7 @@ struct CaseOptions {
     double fineness = 1;
     /// Whether the far field is two markers: `inlet`, where a uniform flow at the angle of attack enters, and `outlet`.
     bool inlet_outlet = false;
+    std::vector<InternalLine> lines{};  ///< lines inside the domain
     WorkLimits limits{};   ///< runs beyond them are refused
     unsigned threads = 0;  ///< number of threads; 0: one per core
 };

@@ -78,7 +78,7 @@ nb::tuple generate(const nb::list& given_sections, const OptionValues& values, c
         [&] {
             const Geometry geometry = geometry_of(sections, request.options.geometry);
             result = generate_mesh(geometry, request.options, progress);
-            if (!request.allow_defects) require_promised_angles(result);
+            if (!request.allow_defects && request.options.lines.empty()) require_promised_angles(result);
         },
         stop);
     nb::list warnings = warnings_of(result.warnings);

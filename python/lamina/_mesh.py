@@ -17,7 +17,7 @@ from ._arrays import immutable, index_array, points_array
 from ._errors import MeshWarning
 
 #: The kinds of markers, in the order of the C++ enumeration.
-_KINDS = ("wall", "far_field", "symmetry", "other", "periodic")
+_KINDS = ("wall", "far_field", "symmetry", "other", "periodic", "internal")
 
 
 @dataclass(frozen=True)
@@ -189,7 +189,7 @@ class Mesh:
 
     @cached_property
     def marker_kinds(self) -> Mapping[str, str]:
-        """The kind of each marker by its name: "wall", "far_field", "symmetry", "other" or "periodic"."""
+        """The kind of each marker by its name: "wall", "far_field", "symmetry", "other", "periodic" or "internal"."""
         return MappingProxyType({name: _KINDS[kind] for name, kind, _ in self._markers})
 
     @cached_property
@@ -365,7 +365,7 @@ def mesh_of_arrays(points, triangles, markers: Mapping[str, Any], *, quads=(),
 
     points: (n, 2) coordinates. triangles: (m, 3), quads: (k, 4) indices into them, counter-clockwise. markers: for each
     name (l, 2) indices, with the mesh on the left of each edge. marker_kinds: "wall" (where nothing is said),
-    "far_field", "symmetry", "other" or "periodic". `lamina.check()` says whether the mesh is valid.
+    "far_field", "symmetry", "other", "periodic" or "internal". `lamina.check()` says whether the mesh is valid.
     """
     kinds = dict(marker_kinds or {})
     named = [(name, _KINDS.index(kinds.get(name, "wall")), edges) for name, edges in markers.items()]

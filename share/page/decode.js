@@ -160,7 +160,7 @@ function followSymbols(symbols, references, cells, addVertex, addCell) {
 
 // Returns the mesh: points (x, y of each vertex), triangles and quads (vertices of each cell, counter-clockwise), and
 // per cell, triangles before quads, region (0 layer, 1 elsewhere), piece and layer, or null. Markers have name, kind
-// ("wall", "far field", "symmetry", "other") and edges (pairs of vertices). `walls` has the vertices of each body and
+// ("wall", "far field", "symmetry", "other", "internal") and edges (pairs of vertices). `walls` has the vertices of each body and
 // the first heights over them; `growth` is a histogram. The numbers of vertices and cells are those of the mesh that
 // was packed.
 export async function decodeMesh(base64) {
@@ -215,7 +215,7 @@ export async function decodeMesh(base64) {
   const names = new TextDecoder().decode(Uint8Array.from(read.next())).split("\0");
   const kinds = read.next(), sizes = read.next(), ends = summed(read.signed(), 2, sizes);
   const markers = Array.from(sizes, (size, m) => ({
-    name: names[m], kind: ["wall", "far field", "symmetry", "other"][kinds[m]], edges: ends[m],
+    name: names[m], kind: ["wall", "far field", "symmetry", "other", "internal"][kinds[m]], edges: ends[m],
   }));
   const wallDifferences = read.signed(), bodySizes = read.next();
   const wallVertices = summed(wallDifferences, 1, [wallDifferences.length])[0];

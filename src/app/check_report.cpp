@@ -42,6 +42,8 @@ const char* kind_name(MarkerKind kind) {
             return "symmetry";
         case MarkerKind::periodic:
             return "periodic";
+        case MarkerKind::internal:
+            return "internal";
         case MarkerKind::other:
             break;
     }

@@ -53,6 +53,7 @@ void convert(const ConvertArguments& arguments) {
     set_kind(mesh.markers(), arguments.far_fields, MarkerKind::far_field, name);
     set_kind(mesh.markers(), arguments.symmetries, MarkerKind::symmetry, name);
     print_warnings(make_marker_names_legal(mesh.markers()));
+    print_warnings(lost_marker_warnings(mesh.markers(), arguments.to, arguments.options));
     write_mesh(mesh.view(), arguments.to, arguments.options);
 }
 

@@ -125,8 +125,12 @@ void add_warnings_of_readers(const MeshDestination& destination, MeshResult& res
 
 void report_warnings(const MeshCase& mesh_case, const MeshDestination& destination, MeshResult& result) {
     add_warnings_of_readers(destination, result);
+    for (const std::string& file : mesh_case.outputs) {
+        std::vector<Warning> lost = lost_marker_warnings(result.mesh.markers, file, write_options(mesh_case));
+        std::move(lost.begin(), lost.end(), std::back_inserter(result.warnings));
+    }
     print_warnings(result.warnings);
-    require_promised_angles(result.check, mesh_case.allow_defects);
+    require_promised_angles(result.check, mesh_case.allow_defects || !mesh_case.options.lines.empty());
 }
 
 double write_outputs(const MeshCase& mesh_case, const MeshDestination& destination, const MeshResult& result) {

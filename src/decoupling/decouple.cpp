@@ -28,10 +28,20 @@ Box box_round(std::span<const Point> points, std::span<const std::vector<VertexI
     return box;
 }
 
-/// Returns the box round the borders of bodies.
+/// Returns the box round the borders of bodies, and round lines inside the region.
 Box box_round_bodies(std::span<const Point> points, std::span<const std::vector<VertexId>> borders,
-                     const FarField& far_field) {
-    return box_round(points, borders.first(borders.size() - far_field.has_walls()));
+                     const FarField& far_field, const InnerLines& inner = {}) {
+    Box box = box_round(points, borders.first(borders.size() - far_field.has_walls()));
+    for (const Point p : inner.points) box.include(p);
+    return box;
+}
+
+/// Adds lines inside the region. Returns the number of the first one.
+std::uint32_t add_inner_lines(const InnerLines& inner, Skeleton& skeleton) {
+    for (const Point p : inner.points) skeleton.add_junction(p);
+    const auto first = static_cast<std::uint32_t>(skeleton.lines.size());
+    for (const Segment& line : inner.lines) skeleton.add_line(line.a, line.b, 1, {.left = true, .right = true});
+    return first;
 }
 
 /// Starts a skeleton with the borders of the layers, turned clockwise: the outer region lies on their left.
@@ -62,6 +72,7 @@ struct UncutSkeleton {
     Skeleton skeleton;
     std::vector<Segment> far_field;  ///< edges of the far field; the region lies on their left
     std::vector<std::uint32_t> far_field_lines{};
+    std::uint32_t first_inner_line = 0;
 };
 
 /// Divides all lines and numbers their vertices.
@@ -78,9 +89,10 @@ UncutSkeleton draw_skeleton(const OuterRegion& region, const SizeField& size, co
     const bool is_box = far_field.shape == FarFieldShape::box;
     const Box outermost = inscribed_box(far_field);
     const auto near_body =
-        near_body_box(box_round_bodies(region.points, region.borders, far_field), outermost, far_field);
+        near_body_box(box_round_bodies(region.points, region.borders, far_field, region.inner), outermost, far_field);
     UncutSkeleton uncut{start_skeleton(region.points, region.borders), {}};
     Lines& lines = uncut.skeleton.lines;
+    uncut.first_inner_line = add_inner_lines(region.inner, uncut.skeleton);
     std::vector<std::uint32_t> outermost_lines;
     if (near_body || is_box) {
         const RingBoxes boxes{near_body.value_or(outermost), outermost};
@@ -111,15 +123,21 @@ UncutSkeleton draw_skeleton(const OuterRegion& region, const SizeField& size, co
 CutRegion cut_region(const OuterRegion& region, core::ConnectedRanks* ranks, const BesideCuts& beside) {
     if (ranks != nullptr && ranks->size() == 1) ranks = nullptr;
     const SizeField& size = region.size;
-    auto [skeleton, far_field_edges, far_field_lines] = draw_skeleton(region, size, ranks);
+    auto [skeleton, far_field_edges, far_field_lines, first_inner_line] = draw_skeleton(region, size, ranks);
     if (beside.once_numbered) beside.once_numbered();
     UncutRegions uncut{skeleton.trace(), skeleton.rings};
+    if (!region.inner.lines.empty())
+        for (LineBorder& border : uncut.borders) border.may_dangle = true;
+    std::vector<std::vector<Segment>> inner_edges;
+    for (std::size_t i = 0; i < region.inner.lines.size(); ++i)
+        inner_edges.push_back(edges_along(skeleton.lines, first_inner_line + static_cast<std::uint32_t>(i)));
     CutRegion cut{std::move(skeleton.lines),
                   std::move(skeleton.rings),
                   std::move(far_field_edges),
                   std::move(far_field_lines),
                   {},
-                  0};
+                  0,
+                  std::move(inner_edges)};
     const double target = region.options.pieces_target;
     if (ranks != nullptr) {
         if (beside.make) cut.lines.gather_points();
@@ -168,10 +186,10 @@ double estimate_triangles(std::span<const Point> points, std::span<const std::ve
 
 Decoupling decouple(std::span<const Point> points, std::span<const std::vector<VertexId>> borders,
                     const SizeField& size, const FarField& far_field, const DecouplingOptions& options,
-                    const RefineOptions& refine) {
+                    const RefineOptions& refine, const InnerLines& inner) {
     validate(options);
     validate(refine);
-    CutRegion cut = cut_region({points, borders, size, far_field, options});
+    CutRegion cut = cut_region({points, borders, size, far_field, options, inner});
     Decoupling result;
     result.subdomains.resize(cut.borders.size());
     core::parallel_for(cut.borders.size(), 1, [&](std::size_t i, std::size_t) {
@@ -181,6 +199,7 @@ Decoupling decouple(std::span<const Point> points, std::span<const std::vector<V
     result.points.resize(cut.lines.vertices());
     cut.lines.copy_points(result.points);
     result.far_field = std::move(cut.far_field);
+    result.inner_edges = std::move(cut.inner_edges);
     return result;
 }
 

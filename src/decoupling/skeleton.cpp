@@ -72,7 +72,13 @@ LineLoop Skeleton::loop_of(std::span<const std::uint32_t> edges) const {
         const auto [line, place, forward] = edges_[e];
         const std::uint32_t n = lines.segments(line);
         if (lines.is_loop(line)) {
-            if (place == 0) loop.add({line, 0, n});
+            // Other lines may begin at its vertices, and then it is passed in several stretches.
+            if (!loop.stretches.empty() && loop.stretches.back().line == line && loop.stretches.back().last == place) {
+                ++loop.stretches.back().last;
+                ++loop.vertices;
+            } else {
+                loop.add({line, place, place + 1});
+            }
         } else if (forward) {
             loop.add({line, 0, n});
         } else if (e == edges.front()) {

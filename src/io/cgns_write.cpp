@@ -53,6 +53,7 @@ BCType_t condition_of(MarkerKind kind) {
         case MarkerKind::symmetry:
             return BCSymmetryPlane;
         case MarkerKind::periodic:
+        case MarkerKind::internal:
         case MarkerKind::other:
             break;
     }
@@ -228,7 +229,7 @@ private:
             extrusion_ != nullptr && extrusion_->periodic ? mesh_.markers.size() : boundary_.size();
         for (std::size_t m = 0; m < conditions; ++m) {
             const BoundaryPart& part = boundary_[m];
-            if (part.last < part.first) continue;
+            if (part.last < part.first || part.kind == MarkerKind::internal) continue;
             const cgsize_t range[2] = {part.first, part.last};
             int condition = 0;
             require(cg_boco_write(file_, base_, zone_, part.name.c_str(), FamilySpecified, PointRange, 2, range,

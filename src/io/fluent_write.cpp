@@ -35,8 +35,11 @@ FluentZoneType type_of(const Marker& marker) {
 
 class FluentWriter {
 public:
-    FluentWriter(const MeshView& mesh, MeshFaces faces, bool binary, std::ostream& out)
-        : mesh_(mesh), faces_(std::move(faces)), binary_(binary), out_(out) {}
+    /// `lines` are the internal markers; the mesh is without them.
+    FluentWriter(const MeshView& mesh, std::span<const Marker> lines, MeshFaces faces, bool binary, std::ostream& out)
+        : mesh_(mesh), lines_(lines), faces_(std::move(faces)), binary_(binary), out_(out) {
+        put_lines_last();
+    }
 
     void write() {
         out_ << fmt::format("(0 \"a mesh of lamina\")\n({} 2)\n", int{fluent_dimension});
@@ -47,8 +50,14 @@ public:
         out_ << fmt::format("({} (0 1 {:x} 0))\n", int{fluent_faces}, faces_.faces.size());
         write_nodes();
         write_cells();
-        write_faces(interior_zone, fluent_interior, 0, faces_.internal);
         std::size_t first = faces_.internal;
+        for (const std::size_t count : on_line_) first -= count;
+        write_faces(interior_zone, fluent_interior, 0, first);
+        const std::size_t first_line_zone = first_marker_zone + mesh_.markers.size();
+        for (std::size_t k = 0; k < lines_.size(); ++k) {
+            write_faces(first_line_zone + k, fluent_interior, first, on_line_[k]);
+            first += on_line_[k];
+        }
         for (std::size_t m = 0; m < mesh_.markers.size(); ++m) {
             write_faces(first_marker_zone + m, type_of(mesh_.markers[m]), first, mesh_.markers[m].edges.size());
             first += mesh_.markers[m].edges.size();
@@ -57,9 +66,28 @@ public:
         write_zone(interior_zone, fluent_interior.name, "interior");
         for (std::size_t m = 0; m < mesh_.markers.size(); ++m)
             write_zone(first_marker_zone + m, type_of(mesh_.markers[m]).name, mesh_.markers[m].name);
+        for (std::size_t k = 0; k < lines_.size(); ++k)
+            write_zone(first_line_zone + k, fluent_interior.name, lines_[k].name);
     }
 
 private:
+    /// Orders the faces between cells so that those on lines come last, line by line.
+    void put_lines_last() {
+        std::vector<std::uint32_t> line_of(faces_.edges.size(), 0);  // from 1
+        for (std::size_t k = 0; k < lines_.size(); ++k)
+            for (const std::uint32_t edge : mesh::find_edges(mesh_, lines_[k].edges)) {
+                if (edge == mesh::no_edge) continue;
+                line_of[edge] = static_cast<std::uint32_t>(k + 1);
+                if (const std::uint32_t twin = faces_.adjacency.twin[edge]; twin != mesh::no_edge)
+                    line_of[twin] = static_cast<std::uint32_t>(k + 1);
+            }
+        const auto end = faces_.faces.begin() + static_cast<std::ptrdiff_t>(faces_.internal);
+        std::stable_sort(faces_.faces.begin(), end,
+                         [&](std::uint32_t a, std::uint32_t b) { return line_of[a] < line_of[b]; });
+        on_line_.assign(lines_.size(), 0);
+        for (auto face = faces_.faces.begin(); face != end; ++face)
+            if (line_of[*face] > 0) ++on_line_[line_of[*face] - 1];
+    }
     void write_nodes() {
         const std::size_t n = mesh_.points.size();
         begin(fluent_nodes, fluent_doubles, fmt::format("{:x} 1 {:x} 1 2", node_zone, n));
@@ -135,6 +163,8 @@ private:
     }
 
     MeshView mesh_;
+    std::span<const Marker> lines_;
+    std::vector<std::size_t> on_line_{};  ///< per line: number of its faces
     MeshFaces faces_;
     bool binary_;
     std::ostream& out_;
@@ -144,10 +174,14 @@ private:
 
 void write_fluent(const MeshView& mesh, const std::filesystem::path& file, bool binary, std::ostream& out) {
     require_legal_marker_names(mesh.markers, file, "Fluent");
-    MeshFaces faces = find_faces(mesh, file, "Fluent");
+    const std::vector<Marker> boundary = markers_of_kind(mesh.markers, false),
+                              lines = markers_of_kind(mesh.markers, true);
+    MeshView boundary_alone = mesh;
+    boundary_alone.markers = boundary;
+    MeshFaces faces = find_faces(boundary_alone, file, "Fluent");
     if (faces.faces.size() > std::numeric_limits<std::int32_t>::max())
         throw UsageError(fmt::format("{}: Fluent numbers no more than 2^31 faces", file.string()));
-    FluentWriter(mesh, std::move(faces), binary, out).write();
+    FluentWriter(boundary_alone, lines, std::move(faces), binary, out).write();
 }
 
 }  // namespace lamina::io

@@ -127,7 +127,8 @@ std::vector<FormatRow> cgns_rows() {
                         .write = write,
                         .files = one_file,
                         .read = read_cgns,
-                        .takes_span = true});
+                        .takes_span = true,
+                        .internal_markers = true});
     };
     add("cgns", "CGNS, HDF5", write_cgns_variant<false, false>);
     add("cgns-3d", "CGNS, HDF5, with CoordinateZ = 0", write_cgns_variant<false, true>);
@@ -146,7 +147,8 @@ std::vector<FormatRow> msh_rows() {
                         .files = one_file,
                         .read = read_one_file<read_msh>,
                         .read_sizes = read_msh_sizes,
-                        .one_stream = true});
+                        .one_stream = true,
+                        .internal_markers = true});
     };
     add("msh41", "Gmsh MSH 4.1, ASCII", write_one_file<write_msh_variant<true, false>>);
     add("msh41-binary", "Gmsh MSH 4.1, binary", write_one_file<write_msh_variant<true, true>>);
@@ -174,7 +176,8 @@ std::vector<FormatRow> vtu_rows() {
                         .read_stored = read_vtu_arrays,
                         .read_sizes = read_vtu_sizes,
                         .takes_span = true,
-                        .one_stream = true});
+                        .one_stream = true,
+                        .internal_markers = true});
     };
     add("vtu", "VTK unstructured grid, raw binary, for ParaView", write_vtu_variant<false>);
     rows.back().layout = vtu_layout;
@@ -199,7 +202,8 @@ FormatRow openfoam_row() {
             .read = read_openfoam,
             .recognizes = holds_openfoam_mesh,
             .takes_parts = true,
-            .takes_span = true};
+            .takes_span = true,
+            .internal_markers = true};
 }
 
 std::vector<FormatRow> fluent_rows() {
@@ -211,7 +215,8 @@ std::vector<FormatRow> fluent_rows() {
                         .write = write,
                         .files = one_file,
                         .read = read_one_file<read_fluent>,
-                        .one_stream = true});
+                        .one_stream = true,
+                        .internal_markers = true});
     };
     add("fluent", "Ansys Fluent mesh, ASCII", write_one_file<write_fluent_variant<false>>);
     rows.back().recognizes = holds_fluent_mesh;

@@ -55,10 +55,11 @@ struct FormatRow {
     /// Collective: writes what each process holds. Null: as `layout` says.
     void (*write_shared)(const mesh::MeshParts&, const MeshFrame&, core::ConnectedRanks&,
                          const std::filesystem::path&) = nullptr;
-    bool takes_parts = false;  ///< whether WriteOptions::parts counts
-    bool takes_span = false;   ///< whether WriteOptions::span counts
-    bool quads = true;         ///< whether the format holds quadrilaterals, too
-    bool one_stream = false;   ///< whether standard input and standard output can carry it
+    bool takes_parts = false;       ///< whether WriteOptions::parts counts
+    bool takes_span = false;        ///< whether WriteOptions::span counts
+    bool quads = true;              ///< whether the format holds quadrilaterals, too
+    bool one_stream = false;        ///< whether standard input and standard output can carry it
+    bool internal_markers = false;  ///< whether `write` is given internal markers, too, because the format holds them
 };
 
 /// Returns the formats of this build. --format, the help text, the guide's table and the choice by extension follow it.

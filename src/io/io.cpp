@@ -7,6 +7,7 @@
 #include <lamina/files.hpp>
 
 #include "io/formats.hpp"
+#include "io/mesh_parts.hpp"
 
 namespace lamina {
 
@@ -16,7 +17,26 @@ namespace fs = std::filesystem;
 
 void write_mesh(const MeshView& mesh, const fs::path& file, const WriteOptions& options) {
     check_writable(file, options);
-    find_format(file, options.format).write(mesh, file, options);
+    const FormatRow& format = find_format(file, options.format);
+    if (format.internal_markers) return format.write(mesh, file, options);
+    const std::vector<Marker> markers = markers_of_kind(mesh.markers, false);
+    MeshView boundary_alone = mesh;
+    boundary_alone.markers = markers;
+    format.write(boundary_alone, file, options);
+}
+
+std::vector<Warning> lost_marker_warnings(std::span<const Marker> markers, const fs::path& file,
+                                          const WriteOptions& options) {
+    const FormatRow& format = find_format(file, options.format);
+    const std::vector<Marker> lines = markers_of_kind(markers, true);
+    if (format.internal_markers || lines.empty()) return {};
+    std::string names;
+    for (const Marker& line : lines) names += (names.empty() ? "" : ", ") + line.name;
+    return {{.code = WarningCode::unsuited_to_solver,
+             .number = static_cast<double>(lines.size()),
+             .unit = "markers",
+             .message = fmt::format("{}: format {} has no markers inside the mesh: {} left out; the edges are there",
+                                    file.string(), format.name, names)}};
 }
 
 Mesh read_mesh(const fs::path& file, const ReadOptions& options) {
@@ -76,7 +96,8 @@ std::string format_name(const fs::path& file, const WriteOptions& options) {
 std::vector<MeshFormat> mesh_formats() {
     std::vector<MeshFormat> formats;
     for (const FormatRow& row : format_table())
-        formats.push_back({row.name, row.extensions, row.description, row.read != nullptr, row.quads, row.one_stream});
+        formats.push_back({row.name, row.extensions, row.description, row.read != nullptr, row.quads, row.one_stream,
+                           row.internal_markers});
     return formats;
 }
 

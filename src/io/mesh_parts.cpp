@@ -87,9 +87,22 @@ void orient_markers(const MeshView& mesh, std::vector<Marker>& markers) {
     const auto has = [&](VertexId a, VertexId b) {
         return std::binary_search(cell_edges.begin(), cell_edges.end(), Segment{a, b});
     };
-    for (Marker& marker : markers)
-        for (Segment& edge : marker.edges)
-            if (!has(edge.a, edge.b) && has(edge.b, edge.a)) std::swap(edge.a, edge.b);
+    for (Marker& marker : markers) {
+        bool is_internal = !marker.edges.empty();
+        for (Segment& edge : marker.edges) {
+            const bool on_left = has(edge.a, edge.b), on_right = has(edge.b, edge.a);
+            if (!on_left && on_right) std::swap(edge.a, edge.b);
+            is_internal = is_internal && on_left && on_right;
+        }
+        if (is_internal) marker.kind = MarkerKind::internal;
+    }
+}
+
+std::vector<Marker> markers_of_kind(std::span<const Marker> markers, bool internal) {
+    std::vector<Marker> result;
+    for (const Marker& marker : markers)
+        if ((marker.kind == MarkerKind::internal) == internal) result.push_back(marker);
+    return result;
 }
 
 bool find_lower_edge(std::span<const VertexId> corners, Segment& edge) {

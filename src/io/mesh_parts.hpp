@@ -45,11 +45,15 @@ void require_legal_marker_names(std::span<const Marker> markers, const std::file
 
 /// Reverses the marker edges that no cell has in their direction but that one has in the other: some programs write
 /// edges of the boundary either way round. Precondition: all indices are in range.
+/// A marker that holds edges between cells alone becomes internal.
 void orient_markers(const MeshView& cells, std::vector<Marker>& markers);
 inline void orient_markers(Mesh& mesh) { orient_markers(mesh, mesh.markers); }
 
 /// Finds the edge that a side face of a mesh one cell thick stands on: two successive corners in the lower plane, which
 /// are the valid ones. Returns false where these are not two successive ones of four corners.
 bool find_lower_edge(std::span<const VertexId> corners, Segment& edge);
+
+/// Returns the internal markers, or all others.
+std::vector<Marker> markers_of_kind(std::span<const Marker> markers, bool internal);
 
 }  // namespace lamina::io

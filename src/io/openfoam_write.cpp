@@ -18,6 +18,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <limits>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <vector>
@@ -63,6 +65,7 @@ const char* patch_type(MarkerKind kind) {
         case MarkerKind::symmetry:
             return "symmetry";
         case MarkerKind::far_field:
+        case MarkerKind::internal:
         case MarkerKind::other:
         case MarkerKind::periodic:
             break;
@@ -97,8 +100,11 @@ std::vector<Marker> markers_in_pairs(const MeshView& mesh) {
 
 class PolyMeshWriter {
 public:
-    PolyMeshWriter(const MeshView& mesh, const fs::path& file, const Extrusion& extrusion)
+    /// `lines` are the internal markers; the mesh is without them.
+    PolyMeshWriter(const MeshView& mesh, std::span<const Marker> lines, const fs::path& file,
+                   const Extrusion& extrusion)
         : mesh_(mesh),
+          lines_(lines),
           file_(file),
           extrusion_(extrusion),
           faces_(find_faces(mesh, file, "OpenFOAM")),
@@ -121,6 +127,8 @@ public:
         write_part(folder, "owner", "labelList", note, [&](std::ostream& out) { write_owners(out); });
         write_part(folder, "neighbour", "labelList", note, [&](std::ostream& out) { write_neighbours(out); });
         write_part(folder, "boundary", "polyBoundaryMesh", "", [&](std::ostream& out) { write_patches(out); });
+        if (!lines_.empty())
+            write_part(folder, "faceZones", "regIOobject", "", [&](std::ostream& out) { write_zones(out); });
     }
 
 private:
@@ -324,7 +332,45 @@ private:
         out << ")\n";
     }
 
+    /// Writes the faces on lines as zones. A face is flipped where its owner is not on the left of the line.
+    void write_zones(std::ostream& out) const {
+        std::vector<std::size_t> face_of(faces_.edges.size(), no_face);
+        for (std::size_t f = 0; f < internal_faces(); ++f)
+            if (const FoamFace face = internal_face(f); face.is_side && face.plane == 0)
+                face_of[faces_.faces[face.number]] = f;
+        out << lines_.size() << "\n(\n";
+        for (const Marker& line : lines_) {
+            std::vector<std::size_t> labels;
+            std::vector<char> flips;
+            const std::vector<std::uint32_t> edges = mesh::find_edges(mesh_, line.edges);
+            for (std::size_t i = 0; i < edges.size(); ++i) {
+                const std::uint32_t edge = edges[i];
+                if (edge == mesh::no_edge || faces_.adjacency.twin[edge] == mesh::no_edge)
+                    throw MeshError(fmt::format("{}: marker '{}' holds an edge that is not between two cells",
+                                                file_.string(), line.name));
+                const std::uint32_t of_owner = face_of[edge] != no_face ? edge : faces_.adjacency.twin[edge];
+                const bool flips_here = faces_.edges.origin(of_owner) != line.edges[i].a;
+                const std::size_t face = face_of[of_owner];
+                for (std::size_t plane = 0; plane < extrusion_.cells; ++plane) {
+                    labels.push_back(face + plane * (faces_.internal + cells()));
+                    flips.push_back(flips_here ? 1 : 0);
+                }
+            }
+            std::vector<std::size_t> order(labels.size());
+            std::iota(order.begin(), order.end(), std::size_t{0});
+            std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return labels[a] < labels[b]; });
+            out << fmt::format("{}\n{{\n    type faceZone;\n    faceLabels List<label>\n", line.name);
+            write_list(out, order.size(), [&](LineText& text, std::size_t i) { text << labels[order[i]]; });
+            out << ";\n    flipMap List<bool>\n";
+            write_list(out, order.size(), [&](LineText& text, std::size_t i) { text << std::size_t(flips[order[i]]); });
+            out << ";\n}\n";
+        }
+        out << ")\n";
+    }
+
+    static constexpr std::size_t no_face = std::numeric_limits<std::size_t>::max();
     MeshView mesh_;
+    std::span<const Marker> lines_;
     const fs::path& file_;
     const Extrusion& extrusion_;
     MeshFaces faces_;  ///< those of the plane mesh
@@ -380,10 +426,11 @@ void check_openfoam_writable(const fs::path& file) {
 
 void write_openfoam(const MeshView& mesh, const fs::path& file, const Extrusion& extrusion, std::size_t parts) {
     require_legal_marker_names(mesh.markers, file, "OpenFOAM");
-    const std::vector<Marker> markers = markers_in_pairs(mesh);
-    MeshView paired = mesh;
-    paired.markers = markers;
-    const PolyMeshWriter writer(paired, file, extrusion);
+    const std::vector<Marker> paired = markers_in_pairs(mesh), boundary = markers_of_kind(paired, false),
+                              lines = markers_of_kind(paired, true);
+    MeshView boundary_alone = mesh;
+    boundary_alone.markers = boundary;
+    const PolyMeshWriter writer(boundary_alone, lines, file, extrusion);
     core::write_folder_atomically(poly_mesh_folder(file), [&](const fs::path& folder) { writer.write(folder); });
     if (parts > 1) write_parts(mesh, extrusion.cells, parts, openfoam_parts_file(file));
 }

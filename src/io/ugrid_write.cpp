@@ -34,6 +34,7 @@ MapbcCode code_of(const MeshView& mesh, const Marker& marker) {
             return box.width() < box.height() ? mapbc_symmetry_x : mapbc_symmetry_z;
         }
         case MarkerKind::periodic:
+        case MarkerKind::internal:
         case MarkerKind::other:
             break;
     }

@@ -64,13 +64,14 @@ std::vector<double> heights_at_vertices(std::span<const RayVertex> outline, std:
     return result;
 }
 
-/// Adds the rays of an outer wall: normals of its straight parts, and bisectors at its corners beyond the domain.
-void add_outer_wall(const OuterWall& wall, RaySet& set) {
-    const std::vector<Point>& p = wall.points;
+/// Adds the rays of a closed outline that has no layers or is straight in the domain: normals of its straight parts, and
+/// bisectors at its corners.
+void add_outline(const std::vector<Point>& p, RaySet& set) {
     for (std::size_t i = 0; i < p.size(); ++i) {
         const Point before = unit(p[i] - p[i > 0 ? i - 1 : p.size() - 1]);
         const Point after = unit(p[i + 1 < p.size() ? i + 1 : 0] - p[i]);
-        set.lines.push_back({p[i], -perpendicular(unit(before + after))});
+        const bool is_end = before == -after;  // of a line without thickness
+        set.lines.push_back({p[i], is_end ? before : -perpendicular(unit(before + after))});
     }
     set.begin.push_back(set.lines.size());
 }
@@ -128,6 +129,7 @@ std::size_t mirror_rays(const Element& element, double y, std::vector<RayLine>& 
 struct Walls {
     const Geometry& geometry;
     std::span<const OuterWall> outer;
+    const Obstacles& obstacles;
 
     /// Returns the numbers of the elements that have images: below a line of symmetry all others than those that it cuts,
     /// unless it cuts none; in a row all, again and again.
@@ -144,7 +146,7 @@ struct Walls {
     }
 };
 
-/// Adds the images of bodies in a line of symmetry, or their copies in a row.
+/// Adds the images of bodies in a line of symmetry, or their copies in a row, and obstacles.
 void add_images(const Walls& walls, RaySet& set) {
     const std::size_t n = set.lines.size(), elements = set.begin.size();
     for (const double shift : geometry::shifts_in_row(walls.geometry)) {
@@ -164,6 +166,7 @@ void add_images(const Walls& walls, RaySet& set) {
                 image_of_ray(set.lines[i], set.lines[i > begin ? i - 1 : end - 1], *walls.geometry.symmetry));
         set.begin.push_back(set.lines.size());
     }
+    for (const std::vector<Point>& outline : walls.obstacles.outlines) add_outline(outline, set);
 }
 
 /// Returns the rays of these walls. `shown` becomes the number of those in the domain, for each body.
@@ -187,7 +190,7 @@ RaySet rays_of(const Walls& walls, std::span<const DividedWake> wakes, const Lay
         set.lines.insert(set.lines.end(), rays.begin(), rays.end());
         set.begin.push_back(set.lines.size());
     }
-    for (const OuterWall& wall : walls.outer) add_outer_wall(wall, set);
+    for (const OuterWall& wall : walls.outer) add_outline(wall.points, set);
     add_images(walls, set);
     return set;
 }
@@ -250,7 +253,7 @@ void grow_from(const Walls& walls, std::span<const DividedWake> wakes, const Lay
     std::vector<std::size_t> shown;
     rays.set = rays_of(walls, wakes, options, rays.growth, shown);
     rays.domain_ends = domain_ends(rays.set, shown, walls.outer);
-    measure_room(rays);
+    measure_room(rays, walls.obstacles.bare);
     Box box = bounding_box(walls.geometry);
     for (const OuterWall& wall : walls.outer)
         for (const Point p : wall.points) box.include(p);
@@ -306,14 +309,15 @@ RaySet bare_walls(const Walls& walls, std::vector<std::size_t>& shown) {
 }  // namespace
 
 Rays grow_rays(const Geometry& geometry, const LayerOptions& options, const LayerGrowth& growth,
-               std::span<const OuterWall> outer_walls) {
+               std::span<const OuterWall> outer_walls, const Obstacles& obstacles) {
     validate(options);
-    const Walls walls{geometry, outer_walls};
+    const Walls walls{geometry, outer_walls, obstacles};
     const std::vector<std::size_t> with_images = walls.with_images();
-    const std::size_t elements = geometry.elements.size() + outer_walls.size() + with_images.size();
+    const std::size_t images = with_images.size() + obstacles.outlines.size();
+    const std::size_t elements = geometry.elements.size() + outer_walls.size() + images;
     Rays rays;
     rays.outer_walls = outer_walls.size();
-    rays.images = with_images.size();
+    rays.images = images;
     rays.in_row = geometry.pitch.has_value();
     rays.enabled = options.enabled;
     rays.wake_lengths.assign(elements, 0.0);
@@ -322,12 +326,14 @@ Rays grow_rays(const Geometry& geometry, const LayerOptions& options, const Laye
         rays.resampled.push_back(element.resampled);
         rays.jagged.push_back(outline_kind(element) == OutlineKind::jagged);
     }
-    rays.resampled.resize(elements - with_images.size(), true);
-    rays.jagged.resize(elements - with_images.size(), false);
+    rays.resampled.resize(elements - images, true);
+    rays.jagged.resize(elements - images, false);
     for (const std::size_t e : with_images) {
         rays.resampled.push_back(rays.resampled[e]);
         rays.jagged.push_back(rays.jagged[e]);
     }
+    rays.resampled.resize(elements, false);
+    rays.jagged.resize(elements, false);
     if (!options.enabled) {
         std::vector<std::size_t> shown;
         rays.set = bare_walls(walls, shown);
@@ -340,11 +346,12 @@ Rays grow_rays(const Geometry& geometry, const LayerOptions& options, const Laye
         throw OptionError("first_height", "needs one entry per element where elements have their own");
     rays.topology = options.topology;
     rays.growth = growth;
-    if (!outer_walls.empty() || !with_images.empty()) {
+    if (!outer_walls.empty() || images > 0) {
         std::vector<double>& heights = rays.growth.first_heights;
         heights.resize(geometry.elements.size(), growth.first_height);
         for (const OuterWall& wall : outer_walls) heights.push_back(wall.first_height);
         for (const std::size_t e : with_images) heights.push_back(double(heights[e]));
+        heights.resize(elements, 0);
     }
     if (rays.in_row)
         for (std::size_t k = 0; k < with_images.size(); ++k)

@@ -78,10 +78,12 @@ std::vector<double> bounded_heights(const Rays& rays) {
 
 LayeredRays layered_rays(const Rays& rays) { return {rays.set, rays.heights, rays.counts}; }
 
-void measure_room(Rays& rays) {
+void measure_room(Rays& rays, std::span<const Point> bare) {
     set_slants(rays.set);
     rays.asked = asked_heights(rays.set, rays.growth);
     rays.limits = height_limits(rays.set, rays.asked);
+    for (std::size_t i = 0; i < rays.limits.size(); ++i)
+        if (std::find(bare.begin(), bare.end(), rays.set.lines[i].origin) != bare.end()) rays.limits[i] = 0;
     rays.lower_to_copies(rays.limits);
     rays.front = bounded_heights(rays);
 }

@@ -78,7 +78,7 @@ struct LayeredRays {
 LayeredRays layered_rays(const Rays& rays);
 
 /// Finds anew what is asked for on each ray, what is in its way, and the front.
-void measure_room(Rays& rays);
+void measure_room(Rays& rays, std::span<const Point> bare = {});
 
 /// Returns the front: the largest heights along the rays, at most those asked for and the limits, that rise along it by no
 /// more than a slope. No ray loses its first layer for its neighbours.

@@ -133,7 +133,7 @@ struct Rays {
     /// symmetry cuts it.
     std::vector<std::size_t> domain_ends;
     std::size_t outer_walls = 0;  ///< number of elements behind the bodies that are outer walls
-    /// Number of last elements, images in a line of symmetry or copies in a row of blades: none is in the domain.
+    /// Number of last elements, images in a line of symmetry, copies in a row of blades or obstacles: none is in the domain.
     std::size_t images = 0;
     bool in_row = false;  ///< whether images are copies in a row: as many of each element, whose rays are as high
 
@@ -165,15 +165,21 @@ struct OuterWall {
     double first_height = 0;    ///< of its layers, in units of the input; 0: it has none
 };
 
+/// What is in the way of rays without being a wall.
+struct Obstacles {
+    std::vector<std::vector<Point>> outlines;  ///< simple and counter-clockwise, or the two ends of a line
+    std::vector<Point> bare;                   ///< vertices of walls at which rays have no layers
+};
+
 /// Grows rays from the walls: one along the normal of each vertex, fans at sharp corners and refining rays between
 /// them. Finds the limit of each ray and the number of layers that fit below it. Neighbouring rays differ by at most
 /// one layer, every cell between them is positively oriented, and the fronts are simple and disjoint. Precondition:
 /// check_simple(geometry). Throws OptionError for options out of range, for heights below the resolution of the
 /// coordinates and for layers absurdly thicker than the input is wide. Outer walls become elements behind those of the
 /// geometry. Rays of bodies with a line of symmetry are images of each other; those on the line lie in it. Rays of copies in
-/// a row of blades are as high as each other.
+/// a row of blades are as high as each other. Obstacles have no layers. Precondition: a row has no obstacles.
 Rays grow_rays(const Geometry& geometry, const LayerOptions& options, const LayerGrowth& growth,
-               std::span<const OuterWall> outer_walls = {});
+               std::span<const OuterWall> outer_walls = {}, const Obstacles& obstacles = {});
 
 /// A circle.
 struct Circle {

@@ -100,15 +100,48 @@ bool have_improper_contact(std::span<const Point> points, const Segment& s, cons
            (b_side == 0 && box_of(points, t).contains(b));
 }
 
+/// The walls without thickness: where edges may lie at the same place.
+class Slits {
+public:
+    explicit Slits(std::span<const SlitEdge> edges) : edges_(edges) {
+        for (const SlitEdge& slit : edges) {
+            vertices_.push_back(slit.edge.a);
+            vertices_.push_back(slit.edge.b);
+        }
+        std::sort(vertices_.begin(), vertices_.end());
+    }
+
+    /// Returns whether the contact of two edges is that of two sides of such a wall: they are the same edge seen from both
+    /// sides, or meet in one end at which each has a vertex of such a wall, and nowhere else.
+    bool allow(std::span<const Point> points, const Segment& s, const Segment& t) const {
+        if (edges_.empty()) return false;
+        const auto found = std::lower_bound(edges_.begin(), edges_.end(), SlitEdge{s, {}});
+        if (found != edges_.end() && found->edge == s && found->twin == t) return true;
+        for (const auto& [p, q] : {std::pair{s.a, s.b}, std::pair{s.b, s.a}})
+            for (const auto& [u, r] : {std::pair{t.a, t.b}, std::pair{t.b, t.a}}) {
+                if (q == u || points[q.index()] != points[u.index()] || !is_vertex(q) || !is_vertex(u)) continue;
+                const Point a = points[p.index()], b = points[q.index()], c = points[r.index()];
+                return orientation(a, b, c) != 0 || lexicographically_less(a, b) != lexicographically_less(c, b);
+            }
+        return false;
+    }
+
+    bool is_vertex(VertexId v) const { return std::binary_search(vertices_.begin(), vertices_.end(), v); }
+
+private:
+    std::span<const SlitEdge> edges_;
+    std::vector<VertexId> vertices_;
+};
+
 void check_contacts(std::span<const Point> points, const BoundaryLoops& loops, const core::BoxTree& tree,
-                    DefectList& defects) {
+                    const Slits& slits, DefectList& defects) {
     const auto check_edges = [&](std::size_t begin, std::size_t end) {
         DefectList found;
         for (std::size_t i = begin; i < end; ++i) {
             const Segment& s = loops.edges[i];
             tree.overlaps(box_of(points, s), [&](std::size_t j) {
                 const Segment& t = loops.edges[j];
-                if (j > i && have_improper_contact(points, s, t))
+                if (j > i && have_improper_contact(points, s, t) && !slits.allow(points, s, t))
                     found.add([&] {
                         return MeshDefect{fmt::format("boundary edges {}-{} and {}-{} cross, touch or overlap",
                                                       s.a.value, s.b.value, t.a.value, t.b.value),
@@ -122,9 +155,12 @@ void check_contacts(std::span<const Point> points, const BoundaryLoops& loops, c
         defects.append(std::move(found));
 }
 
-/// Returns whether a simple loop is counter-clockwise. Exact.
-bool is_counter_clockwise(std::span<const Point> points, std::span<const Segment> loop) {
-    return core::polygon_orientation(loop.size(), [&](std::size_t i) { return points[loop[i].a.index()]; }) > 0;
+/// Returns whether a loop is counter-clockwise. Exact. Walls without thickness lie inside the domain, so a loop whose
+/// smallest vertex is one of theirs is not.
+bool is_counter_clockwise(std::span<const Point> points, std::span<const Segment> loop, const Slits& slits) {
+    const auto vertex = [&](std::size_t i) { return points[loop[i].a.index()]; };
+    if (slits.is_vertex(loop[core::smallest_vertex(loop.size(), vertex)].a)) return false;
+    return core::polygon_orientation(loop.size(), vertex) > 0;
 }
 
 /// Returns the winding number of all other loops round a vertex of loop l: the signed number of their crossings with
@@ -147,10 +183,10 @@ long winding_of_others(std::span<const Point> points, const BoundaryLoops& loops
 /// Checks how the loops are nested. In a valid mesh a counter-clockwise loop lies outside all other domains, where the
 /// winding number of the other loops is 0, and a clockwise one inside exactly one domain, where it is 1.
 void check_nesting(std::span<const Point> points, const BoundaryLoops& loops, const core::BoxTree& tree,
-                   BoundarySummary& summary) {
+                   const Slits& slits, BoundarySummary& summary) {
     for (std::size_t l = 0; l + 1 < loops.first.size(); ++l) {
         const std::span loop(loops.edges.data() + loops.first[l], loops.first[l + 1] - loops.first[l]);
-        const bool outer = is_counter_clockwise(points, loop);
+        const bool outer = is_counter_clockwise(points, loop, slits);
         summary.outer_loops += outer;
         if (winding_of_others(points, loops, tree, l) != (outer ? 0 : 1))
             summary.defects.add([&] {
@@ -174,7 +210,8 @@ void add_areas(std::span<const Point> points, const BoundaryLoops& loops, Bounda
 
 }  // namespace
 
-BoundarySummary check_boundary(std::span<const Point> points, std::vector<Segment> edges) {
+BoundarySummary check_boundary(std::span<const Point> points, std::vector<Segment> edges,
+                               std::span<const SlitEdge> slits) {
     BoundarySummary summary;
     if (edges.empty()) return summary;
     std::sort(edges.begin(), edges.end());
@@ -191,8 +228,9 @@ BoundarySummary check_boundary(std::span<const Point> points, std::vector<Segmen
     const core::BoxTree tree = make_tree(points, loops.edges);
     summary.loops = loops.first.size() - 1;
     add_areas(points, loops, summary);
-    check_contacts(points, loops, tree, summary.defects);
-    if (summary.defects.empty()) check_nesting(points, loops, tree, summary);
+    const Slits walls_without_thickness(slits);
+    check_contacts(points, loops, tree, walls_without_thickness, summary.defects);
+    if (summary.defects.empty()) check_nesting(points, loops, tree, walls_without_thickness, summary);
     return summary;
 }
 

@@ -51,7 +51,7 @@ void check_whole_boundary(std::span<const Point> points, std::span<const Marker>
     const std::vector<Segment> edges = sorted_ends(boundary);
     check_markers(points, markers, edges, defects);
     if (!conforming) return;
-    BoundarySummary summary = check_boundary(points, edges);
+    BoundarySummary summary = check_boundary(points, edges, slit_edges(points, markers));
     check.boundary_loops = summary.loops;
     defects.append(std::move(summary.defects));
     if (defects.empty()) check_totals(check, summary, defects);

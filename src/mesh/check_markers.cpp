@@ -11,6 +11,50 @@
 
 namespace lamina::mesh {
 
+std::vector<Segment> sorted_undirected(std::span<const Segment> edges) {
+    std::vector<Segment> sorted(edges.begin(), edges.end());
+    for (Segment& edge : sorted)
+        if (edge.b < edge.a) std::swap(edge.a, edge.b);
+    std::sort(sorted.begin(), sorted.end());
+    return sorted;
+}
+
+std::vector<Segment> internal_edges(std::span<const Marker> markers) {
+    std::vector<Segment> edges;
+    for (const Marker& marker : markers)
+        if (marker.kind == MarkerKind::internal) edges.insert(edges.end(), marker.edges.begin(), marker.edges.end());
+    edges = sorted_undirected(edges);
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    return edges;
+}
+
+std::vector<SlitEdge> slit_edges(std::span<const Point> points, std::span<const Marker> markers) {
+    std::vector<SlitEdge> slits;
+    const auto ends_of = [&](const Segment& edge) {
+        const Point a = points[edge.a.index()], b = points[edge.b.index()];
+        return lexicographically_less(a, b) ? std::pair{a, b} : std::pair{b, a};
+    };
+    const auto less = [&](const Segment& s, const Segment& t) {
+        const auto [a, b] = ends_of(s);
+        const auto [c, d] = ends_of(t);
+        return a == c ? lexicographically_less(b, d) : lexicographically_less(a, c);
+    };
+    for (const Marker& marker : markers) {
+        if (marker.kind == MarkerKind::internal) continue;
+        std::vector<Segment> edges = marker.edges;
+        std::stable_sort(edges.begin(), edges.end(), less);
+        for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
+            const Segment &s = edges[i], &t = edges[i + 1];
+            if (points[s.a.index()] != points[t.b.index()] || points[s.b.index()] != points[t.a.index()]) continue;
+            if (s.a == t.b && s.b == t.a) continue;
+            slits.push_back({s, t});
+            slits.push_back({t, s});
+        }
+    }
+    std::sort(slits.begin(), slits.end());
+    return slits;
+}
+
 void check_markers(std::span<const Point> points, std::span<const Marker> markers, const std::vector<Segment>& boundary,
                    DefectList& defects) {
     std::vector<std::uint8_t> marked(boundary.size(), 0);
@@ -23,6 +67,19 @@ void check_markers(std::span<const Point> points, std::span<const Marker> marker
         };
         if (std::any_of(markers.begin(), markers.end(), is_earlier_namesake))
             defects.add([&] { return MeshDefect{fmt::format("two markers are named '{}'", marker.name), {}}; });
+        if (marker.kind == MarkerKind::internal) {
+            const std::vector<Segment> edges = sorted_undirected(marker.edges);
+            for (std::size_t i = 0; i < edges.size(); ++i) {
+                const Segment edge = edges[i];
+                if (i > 0 && edge == edges[i - 1])
+                    report(edge, fmt::format("marker '{}' holds the edge {} twice", marker.name, edge_text(edge)));
+                for (const Segment& side : {edge, Segment{edge.b, edge.a}})
+                    if (std::binary_search(boundary.begin(), boundary.end(), side))
+                        report(side, fmt::format("edge {} of the internal marker '{}' is on the boundary",
+                                                 edge_text(side), marker.name));
+            }
+            continue;
+        }
         for (const Segment& edge : marker.edges) {
             const auto found = std::lower_bound(boundary.begin(), boundary.end(), edge);
             if (found == boundary.end() || *found != edge) {

@@ -6,12 +6,14 @@
 #include <utility>
 
 #include "mesh/cell_text.hpp"
+#include "mesh/check_markers.hpp"
 #include "mesh/isotropic_cells.hpp"
 
 namespace lamina::mesh {
 
 std::vector<Segment> sorted_constraints(const MeshView& mesh) {
-    std::vector<Segment> constraints(mesh.constraints.begin(), mesh.constraints.end());
+    std::vector<Segment> constraints = internal_edges(mesh.markers);
+    constraints.insert(constraints.end(), mesh.constraints.begin(), mesh.constraints.end());
     for (Segment& edge : constraints)
         if (edge.b < edge.a) std::swap(edge.a, edge.b);
     std::sort(constraints.begin(), constraints.end());
@@ -28,7 +30,8 @@ void subtract_constraints(const MeshView& mesh, const std::vector<Segment>& cons
         const auto [edge, twin] = pairs[i];
         if (edge == no_edge) {
             defects.add([&] {
-                return MeshDefect{fmt::format("constraint {} is no edge of the mesh", edge_text(constraint)),
+                return MeshDefect{fmt::format("constraint or edge of an internal marker {} is no edge of the mesh",
+                                              edge_text(constraint)),
                                   mesh.points[constraint.a.index()]};
             });
             continue;

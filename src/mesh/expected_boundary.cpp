@@ -26,7 +26,8 @@ ExpectedBoundary::ExpectedBoundary(std::span<const Point> points, std::span<cons
                                    std::vector<Segment> outer)
     : outer_(std::move(outer)) {
     std::vector<Segment> edges;
-    for (const Marker& marker : markers) edges.insert(edges.end(), marker.edges.begin(), marker.edges.end());
+    for (const Marker& marker : markers)
+        if (marker.kind != MarkerKind::internal) edges.insert(edges.end(), marker.edges.begin(), marker.edges.end());
     std::sort(edges.begin(), edges.end());
     std::vector<Segment> sorted_outer = outer_;
     std::sort(sorted_outer.begin(), sorted_outer.end());

@@ -107,7 +107,10 @@ FittedLayer grow_within(const CaseOptions& options, Geometry geometry, const Ref
     if (!outer_walls.empty())
         divided = divide_outer_walls(
             outer_walls, far_field, size_of_outer_walls(options, geometry, conditions, growth, far_field.box(), finer));
-    layers::Rays rays = layers::grow_rays(geometry, options.layer, growth, divided);
+    LineGraph lines = arrange_lines(options.lines, far_field, geometry);
+    layers::Obstacles obstacles;
+    if (!lines.pieces.empty()) obstacles = obstacles_of(lines, growth.first_height);
+    layers::Rays rays = layers::grow_rays(geometry, options.layer, growth, divided, obstacles);
     if (options.layer.enabled && !geometry.pitch)
         require_room_for_layers(geometry, layers::fronts(rays), far_field, options.layer, growth);
     std::vector<double> front = rays.front;
@@ -117,6 +120,7 @@ FittedLayer grow_within(const CaseOptions& options, Geometry geometry, const Ref
             .far_field = std::move(far_field),
             .outer_walls = std::move(outer_walls),
             .rays = std::move(rays),
+            .lines = std::move(lines),
             .first_front = std::move(front)};
 }
 
@@ -173,6 +177,8 @@ void request_sizes(SizingOptions options, FittedLayer& fitted) {
                               std::span(along_wakes).subspan(first));
     }
     const bool decided = decides_on_sizes(options);
+    const std::vector<SizeSource> between_lines = sizes_between(fitted.lines);
+    options.sources.insert(options.sources.end(), between_lines.begin(), between_lines.end());
     if (!decided) options.sources.insert(options.sources.end(), along_wakes.begin(), along_wakes.end());
     std::vector<SizeSource>& at_borders = fitted.requests.at_borders;
     const std::vector<std::vector<Point>> fronts = layers::fronts(rays);

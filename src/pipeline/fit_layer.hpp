@@ -11,6 +11,7 @@
 #include "layers/stages.hpp"
 #include "mesh/piece_check.hpp"
 #include "pipeline/flow_guidance.hpp"
+#include "pipeline/internal_lines.hpp"
 #include "pipeline/outer_walls.hpp"
 #include "sizing/requests.hpp"
 #include "surface/spacing_limits.hpp"
@@ -31,6 +32,7 @@ struct FittedLayer {
     decoupling::FarField far_field;
     std::vector<OuterWallFacts> outer_walls;  ///< those of the far field
     layers::Rays rays;
+    LineGraph lines{};  ///< those inside the domain
     sizing::SizeRequests requests{};
     std::vector<ElementWake> wakes{};       ///< of the flow, one per element or none
     layers::BorderOptions border{};         ///< how the border is divided, but for the sources of the requests

@@ -166,12 +166,14 @@ MadeMesh make_mesh(const FittedLayer& fitted, const CaseOptions& options, MeshDr
 
     clock.begin("decoupling", estimate);
     const DecoupledBorders borders = driver.decouple(
-        {region.points, region.borders, size, fitted.far_field, options.decoupling},
+        {region.points, region.borders, size, fitted.far_field, options.decoupling,
+         inner_lines(fitted.lines, options.lines, region)},
         refine_within(options.refine, fitted.conditions.chord, budget), triangles_beyond_layer(result.estimate, layer));
     std::vector<Segment> far_field = region.far_field;
     far_field.insert(far_field.end(), borders.far_field.begin(), borders.far_field.end());
     std::vector<Marker> markers = make_markers(fitted.geometry, layer, std::move(far_field), options.assemble);
     complete_markers(fitted, layer, region, options, driver, borders.points, markers);
+    add_line_markers(fitted.lines, options.lines, borders.inner_edges, markers);
     clock.end(&StageSeconds::decoupling);
 
     clock.begin("layer triangulation, refinement and check of pieces");
@@ -198,6 +200,14 @@ MadeMesh make_mesh(const FittedLayer& fitted, const CaseOptions& options, MeshDr
     require_made_within(budget, pieces.counts);
     result.mesh = std::move(pieces.mesh);
     result.mesh.markers = std::move(markers);
+    if (!options.lines.empty()) {
+        if (has_two_sided(options.lines)) split_two_sided(options.lines, result.mesh, made.constraints);
+        result.mesh.constraints = made.constraints;
+        result.check =
+            check_mesh(result.mesh, {.min_angle_deg = options.refine.min_angle_deg,
+                                     .first_heights = first_heights_of_markers(result, result.mesh.markers)});
+        require_valid(result.check);
+    }
     summarize_cells(layer, pieces.cells, result);
     summarize_refinement(pieces.summary, result);
     driver.lead([&] {

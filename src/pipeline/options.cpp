@@ -10,6 +10,7 @@
 #include "decoupling/far_field.hpp"
 #include "geometry/symmetry.hpp"
 #include "pipeline/derived_options.hpp"
+#include "pipeline/internal_lines.hpp"
 #include "sizing/requests.hpp"
 
 namespace lamina::pipeline {
@@ -35,6 +36,12 @@ OptionTable<CaseOptions> make_pipeline_rows() {
                 "this",
                 positive_numbers, member_at(&CaseOptions::fineness))
         .library_only = true;
+    outer.specs(
+        "line", "NAME[:two-sided][:H]:PLACE",
+        "a line of edges with a marker NAME, through the points of PLACE, X0,Y0,X1,Y1[,...] or a file of them: edges "
+        "between cells, or, two-sided, a wall without thickness; H is the edge length along it; units of the input; "
+        "may be given several times",
+        parse_line, line_text, member_at(&CaseOptions::lines));
     files.flag("inlet-outlet",
                "the far field is two markers: inlet, where a uniform flow at the angle of attack enters, and outlet",
                true, member_at(&CaseOptions::inlet_outlet));
@@ -143,6 +150,7 @@ void validate(const CaseOptions& options) {
     validate(options.decomposition);
     validate(options.refine);
     require_in_range(pipeline_rows(), options);
+    validate_lines(options);
     const bool by_y_plus = options.layer.enabled && std::holds_alternative<YPlus>(options.layer.first_height);
     if (by_y_plus && !options.conditions.reynolds && !options.conditions.velocity)
         throw OptionError("y_plus", "needs reynolds, or velocity and viscosity");

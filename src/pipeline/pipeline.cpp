@@ -13,6 +13,7 @@
 #include "pipeline/derived_options.hpp"
 #include "pipeline/fit_layer.hpp"
 #include "pipeline/flow_guidance.hpp"
+#include "pipeline/internal_lines.hpp"
 #include "pipeline/mesh_limits.hpp"
 #include "pipeline/mesh_stages.hpp"
 #include "sizing/requests.hpp"
@@ -96,6 +97,9 @@ MadeMesh run(const Geometry& whole, CaseOptions options, MeshDriver& driver, Sta
     const Geometry& given = is_part ? part : whole;
     const ReferenceConditions conditions = reference_conditions(options.conditions, reference_box(given));
     options.sizing = sizes_in_tunnel(std::move(options.sizing), options.far_field, conditions.chord, options.fineness);
+    for (const InternalLine& line : options.lines)
+        for (std::size_t i = 0; line.size && i + 1 < line.points.size(); ++i)
+            options.sizing.sources.push_back({.a = line.points[i], .b = line.points[i + 1], .size = *line.size});
     const WorkBudget budget{options.limits, driver.cost()};
     require_surface_points_within(options.surface, given.elements.size(), budget);
     layers::LayerGrowth growth = layers::layer_growth(options.layer, conditions);
@@ -194,6 +198,7 @@ MeshResult generate_mesh(const std::vector<std::string>& inputs, const CaseOptio
 
 StreamedMesh stream_mesh(const std::vector<std::string>& inputs, const CaseOptions& options, const OpenSink& open_sink,
                          const Progress& progress) {
+    if (!options.lines.empty()) throw OptionError("line", "lines need the mesh as a whole: leave --stream out");
     StreamingDriver driver(open_sink);
     MadeMesh made = run_on_inputs(inputs, options, driver, progress);
     return {std::move(made.result), made.counts, std::move(made.hash), std::move(made.sink)};
@@ -201,6 +206,7 @@ StreamedMesh stream_mesh(const std::vector<std::string>& inputs, const CaseOptio
 
 SharedMesh share_mesh(const std::vector<std::string>& inputs, const CaseOptions& options, Ranks& ranks,
                       const std::optional<std::filesystem::path>& beside, const Progress& progress) {
+    if (!options.lines.empty()) throw OptionError("line", "lines are made by one process: leave mpirun out");
     SharingDriver driver(core::connected(ranks), beside);
     MadeMesh made = run_on_inputs(inputs, options, driver, progress);
     return {std::move(made.result), made.counts, std::move(made.hash), std::move(made.constraints),

@@ -120,7 +120,7 @@ val HeldMesh::arrays() const {
     arrays.set("constraints", flat<std::uint32_t>(mesh_.constraints));
     val markers = val::array();
     for (const Marker& marker : mesh_.markers) {
-        constexpr const char* kinds[] = {"wall", "far_field", "symmetry", "other", "periodic"};
+        constexpr const char* kinds[] = {"wall", "far_field", "symmetry", "other", "periodic", "internal"};
         val entry = val::object();
         entry.set("name", marker.name);
         entry.set("kind", std::string(kinds[static_cast<int>(marker.kind)]));

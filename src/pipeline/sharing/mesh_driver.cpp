@@ -45,9 +45,9 @@ Mesh PiecesWork::check_layer(const layers::LayerCells& cells) const {
 DecoupledBorders LocalDriver::decouple(const decoupling::OuterRegion& region, const RefineOptions& refine,
                                        double expected_triangles) {
     rules_ = piece_rules(refine, expected_triangles);
-    decoupling_ =
-        decoupling::decouple(region.points, region.borders, region.size, region.far_field, region.options, refine);
-    return {decoupling_.points, decoupling_.far_field};
+    decoupling_ = decoupling::decouple(region.points, region.borders, region.size, region.far_field, region.options,
+                                       refine, region.inner);
+    return {decoupling_.points, decoupling_.far_field, decoupling_.inner_edges};
 }
 
 MadePieces LocalDriver::make_for(PartTaker& taker, bool with_hash, const PiecesWork& work) {
@@ -112,7 +112,7 @@ DecoupledBorders SharingDriver::decouple(const decoupling::OuterRegion& region, 
         rules_.expected_triangles = expected.front();
     };
     shared_ = cut_and_deal(region, refine, maker_.emplace(rules_, beside_), ranks_, before_pieces);
-    return {shared_->points(), shared_->cut.far_field};
+    return {shared_->points(), shared_->cut.far_field, {}};
 }
 
 MadePieces SharingDriver::make(const PiecesWork& work) {

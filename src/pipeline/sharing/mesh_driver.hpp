@@ -35,6 +35,7 @@ namespace lamina::pipeline {
 struct DecoupledBorders {
     std::span<const Point> points;
     std::span<const Segment> far_field;
+    std::span<const std::vector<Segment>> inner_edges;  ///< as in decoupling::Decoupling
 };
 
 /// What the pieces of a mesh are made of, and where their check and their times go.

@@ -1,0 +1,554 @@
+// Lines are cut by one constrained triangulation of bodies and lines, in which crossings are vertices. They then stand in
+// the way of rays as thin outlines, and are lines between subdomains in the outer region.
+#include "pipeline/internal_lines.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <lamina/error.hpp>
+#include <lamina/files.hpp>
+#include <lamina/predicates.hpp>
+#include <lamina/triangulation.hpp>
+
+#include "core/bounding_box.hpp"
+#include "core/box_tree.hpp"
+#include "core/segments.hpp"
+#include "core/text.hpp"
+#include "geometry/inside.hpp"
+#include "geometry/symmetry.hpp"
+
+namespace lamina::pipeline {
+
+namespace {
+
+constexpr const char* option_name = "line";
+constexpr const char* two_sided_word = "two-sided";
+
+struct Lexicographic {
+    bool operator()(Point a, Point b) const { return lexicographically_less(a, b); }
+};
+
+/// Returns the points of a file with two numbers in each line. Empty lines and those that begin with # do not count.
+std::vector<Point> read_points(const std::string& file) {
+    std::istringstream in(read_file(file, max_text_bytes));
+    std::vector<Point> points;
+    std::string row;
+    for (std::size_t number = 1; std::getline(in, row); ++number) {
+        std::replace(row.begin(), row.end(), ',', ' ');
+        std::istringstream words(row);
+        std::string x, y, rest;
+        if (!(words >> x) || x.front() == '#') continue;
+        if (!(words >> y) || words >> rest)
+            throw InputError({input_name(file), number, {}}, "expected the two coordinates of a point of a line");
+        points.push_back({core::parse_number(x), core::parse_number(y)});
+    }
+    return points;
+}
+
+/// Returns whether a text is a list of numbers.
+bool is_numbers(const std::string& text) {
+    return text.find(',') != std::string::npos && text.find_first_not_of("0123456789+-.,eE ") == std::string::npos;
+}
+
+[[noreturn]] void refuse(const InternalLine& line, const std::string& reason) {
+    throw OptionError(option_name, fmt::format("{}: {}", line.name, reason));
+}
+
+}  // namespace
+
+InternalLine parse_line(const std::string& text) {
+    const std::vector<std::string> parts = core::split(text, ':');
+    core::require_text(parts.size() >= 2, text, "a line is NAME[:two-sided][:H]:FILE or ...:X0,Y0,X1,Y1[,...]");
+    InternalLine line;
+    line.name = parts.front();
+    const std::string& place = parts.back();
+    for (std::size_t i = 1; i + 1 < parts.size(); ++i) {
+        if (parts[i] == two_sided_word) {
+            line.two_sided = true;
+        } else {
+            line.size = core::parse_number(parts[i]);
+            core::require_text(*line.size > 0, text, "the size must be > 0");
+        }
+    }
+    if (!is_numbers(place)) {
+        line.file = place;
+        line.points = read_points(place);
+        return line;
+    }
+    const std::vector<double> numbers = core::parse_numbers(place, ',');
+    core::require_text(numbers.size() >= 4 && numbers.size() % 2 == 0, text,
+                       "a line needs two coordinates for each of its points, and two points");
+    for (std::size_t i = 0; i < numbers.size(); i += 2) line.points.push_back({numbers[i], numbers[i + 1]});
+    return line;
+}
+
+std::string line_text(const InternalLine& line) {
+    std::string text = line.name;
+    if (line.two_sided) text += std::string(":") + two_sided_word;
+    if (line.size) text += ":" + core::to_text(*line.size);
+    text += ":";
+    if (!line.file.empty()) return text + line.file;
+    for (std::size_t i = 0; i < line.points.size(); ++i)
+        text += core::concat(i > 0 ? "," : "", core::to_text(line.points[i].x), ",", core::to_text(line.points[i].y));
+    return text;
+}
+
+void validate_lines(const CaseOptions& options) {
+    std::set<std::string> names;
+    for (const InternalLine& line : options.lines) {
+        const MarkerKind kind = line.two_sided ? MarkerKind::wall : MarkerKind::internal;
+        if (line.name.empty() || legal_marker_name(line.name, kind) != line.name)
+            refuse(
+                line,
+                "is no name that every format takes: it begins with a letter, and letters, digits, _, - and . follow");
+        if (!names.insert(line.name).second) refuse(line, "two lines have this name");
+        if (line.points.size() < 2) refuse(line, "has less than two points");
+        for (std::size_t i = 0; i < line.points.size(); ++i) {
+            if (!in_exact_range(line.points[i])) refuse(line, "has coordinates outside the exact range");
+            if (i > 0 && line.points[i] == line.points[i - 1]) refuse(line, "repeats a point");
+            if (i > 1 && core::segments_fold(line.points[i - 1], line.points[i - 2], line.points[i]))
+                refuse(line, "runs back on itself");
+        }
+        if (line.two_sided && line.points.front() == line.points.back())
+            refuse(line, "a line with two sides must not enclose a region of its own");
+        if (line.size && !(*line.size > 0)) refuse(line, "the size must be > 0");
+    }
+}
+
+namespace {
+
+/// An edge of a body.
+struct WallEdge {
+    std::size_t element, index;
+    Point a, b;
+};
+
+std::vector<WallEdge> wall_edges(const Geometry& geometry) {
+    std::vector<WallEdge> edges;
+    for (std::size_t e = 0; e < geometry.elements.size(); ++e) {
+        const std::vector<Point>& p = geometry.elements[e].points;
+        for (std::size_t i = 0; i < p.size(); ++i) edges.push_back({e, i, p[i], p[(i + 1) % p.size()]});
+    }
+    return edges;
+}
+
+constexpr double vertex_share = 0.3;  ///< of an edge: crossings nearer to one of its ends become that end
+
+/// Returns the point of a wall that an end of a line near it is moved to.
+Point attached(Point end, const Geometry& geometry, std::span<const WallEdge> walls) {
+    constexpr double reach = 0.5;  // of the edge
+    for (const Element& element : geometry.elements)
+        if (core::bounding_box(element.points).contains(end) && geometry::contains(element.points, end)) return end;
+    double nearest = HUGE_VAL;
+    Point result = end;
+    for (const WallEdge& wall : walls) {
+        const double length = distance(wall.a, wall.b), d = core::distance_to_segment(end, wall.a, wall.b);
+        if (!(d < reach * length && d < nearest)) continue;
+        nearest = d;
+        const double t = dot(end - wall.a, wall.b - wall.a) / (length * length);
+        result = t < vertex_share ? wall.a : t > 1 - vertex_share ? wall.b : wall.a + t * (wall.b - wall.a);
+    }
+    return result;
+}
+
+/// Puts vertices into the outline of an element: those with the keys of edges, in the order along them.
+void insert_vertices(const std::map<std::size_t, std::vector<Point>>& after, Element& element) {
+    std::vector<Point> points;
+    std::vector<std::size_t> lines, place;
+    for (std::size_t i = 0; i < element.points.size(); ++i) {
+        place.push_back(points.size());
+        points.push_back(element.points[i]);
+        lines.push_back(i < element.lines.size() ? element.lines[i] : 0);
+        if (const auto found = after.find(i); found != after.end())
+            for (const Point p : found->second) {
+                points.push_back(p);
+                lines.push_back(0);
+            }
+    }
+    for (std::size_t& corner : element.features.corners) corner = place[corner];
+    for (std::size_t& corner : element.given_corners) corner = place[corner];
+    if (element.features.base) {
+        element.features.base->first = place[element.features.base->first];
+        element.features.base->last = place[element.features.base->last];
+    }
+    element.points = std::move(points);
+    element.lines = std::move(lines);
+}
+
+/// Bodies and lines in one triangulation.
+struct Arrangement {
+    std::vector<Point> points;
+    std::size_t wall_points = 0;      ///< the first so many are those of the bodies
+    std::vector<WallEdge> walls;      ///< the first segments
+    std::vector<std::uint32_t> line;  ///< of the other segments
+    ConstrainedTriangulation cells;
+};
+
+Arrangement arrange(std::span<const InternalLine> lines, const Geometry& geometry) {
+    Arrangement result;
+    result.walls = wall_edges(geometry);
+    std::vector<Segment> segments;
+    for (const Element& element : geometry.elements) {
+        const std::size_t first = result.points.size(), n = element.points.size();
+        for (std::size_t i = 0; i < n; ++i) segments.push_back({VertexId(first + i), VertexId(first + (i + 1) % n)});
+        result.points.insert(result.points.end(), element.points.begin(), element.points.end());
+    }
+    result.wall_points = result.points.size();
+    for (std::uint32_t k = 0; k < lines.size(); ++k) {
+        std::vector<Point> points = lines[k].points;
+        if (points.front() != points.back())
+            for (Point* end : {&points.front(), &points.back()}) *end = attached(*end, geometry, result.walls);
+        result.points.insert(result.points.end(), points.begin(), points.end());
+        for (std::size_t i = result.points.size() - points.size(); i + 1 < result.points.size(); ++i) {
+            segments.push_back({VertexId(i), VertexId(i + 1)});
+            result.line.push_back(k);
+        }
+    }
+    result.cells = triangulate(result.points, segments, {.crossings = Crossings::insert, .merge_distance = 0.0});
+    result.points.insert(result.points.end(), result.cells.steiner_points.begin(), result.cells.steiner_points.end());
+    return result;
+}
+
+bool is_inside_body(const Geometry& geometry, Point p) {
+    return std::any_of(geometry.elements.begin(), geometry.elements.end(), [&](const Element& element) {
+        return core::bounding_box(element.points).contains(p) && geometry::contains(element.points, p);
+    });
+}
+
+/// Finds the vertices of lines on walls, and what becomes of them: `moved` has the vertex of the wall for those near one, and
+/// `inserted`, per element and edge, those that become vertices of the wall.
+using InsertedVertices = std::vector<std::map<std::size_t, std::vector<Point>>>;
+InsertedVertices settle_on_walls(const Arrangement& arrangement, std::span<const char> used, std::size_t elements,
+                                 std::vector<std::size_t>& moved) {
+    InsertedVertices inserted(elements);
+    std::map<std::uint32_t, std::vector<std::size_t>> on_edge;
+    for (std::size_t i = 0; i < arrangement.cells.segments.size(); ++i) {
+        const std::uint32_t parent = arrangement.cells.parents[i];
+        if (parent >= arrangement.walls.size()) continue;
+        for (const VertexId v : {arrangement.cells.segments[i].a, arrangement.cells.segments[i].b})
+            if (v.index() >= arrangement.wall_points && used[v.index()]) on_edge[parent].push_back(v.index());
+    }
+    for (auto& [parent, vertices] : on_edge) {
+        const WallEdge& wall = arrangement.walls[parent];
+        std::sort(vertices.begin(), vertices.end());
+        vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+        const double length = distance(wall.a, wall.b);
+        const auto at = [&](std::size_t v) { return distance(wall.a, arrangement.points[v]); };
+        std::sort(vertices.begin(), vertices.end(), [&](std::size_t a, std::size_t b) { return at(a) < at(b); });
+        const auto vertex_of = [&](Point p) {
+            for (std::size_t v = 0; v < arrangement.wall_points; ++v)
+                if (arrangement.points[v] == p) return v;
+            return arrangement.wall_points;
+        };
+        double last = 0;
+        for (const std::size_t v : vertices) {
+            if (at(v) < vertex_share * length) {
+                moved[v] = vertex_of(wall.a);
+            } else if (at(v) > (1 - vertex_share) * length) {
+                moved[v] = vertex_of(wall.b);
+            } else if (at(v) > last) {
+                inserted[wall.element][wall.index].push_back(arrangement.points[v]);
+                last = at(v);
+            }
+        }
+    }
+    return inserted;
+}
+
+/// Throws OptionError where two-sided lines enclose a region, by themselves or with bodies.
+void require_connected_domain(const LineGraph& graph, std::span<const InternalLine> lines, const Geometry& geometry) {
+    std::map<Point, std::size_t, Lexicographic> body_at;
+    for (std::size_t e = 0; e < geometry.elements.size(); ++e)
+        for (const Point p : geometry.elements[e].points) body_at.emplace(p, e);
+    const std::size_t bodies = geometry.elements.size();
+    std::vector<std::size_t> parent(bodies + graph.points.size());
+    for (std::size_t i = 0; i < parent.size(); ++i) parent[i] = i;
+    const auto root_of = [&](std::size_t i) {
+        while (parent[i] != i) i = parent[i] = parent[parent[i]];
+        return i;
+    };
+    const auto node = [&](VertexId v) {
+        const auto body = body_at.find(graph.points[v.index()]);
+        return root_of(body != body_at.end() ? body->second : bodies + v.index());
+    };
+    for (std::size_t i = 0; i < graph.pieces.size(); ++i) {
+        const InternalLine& line = lines[graph.line[i]];
+        if (!line.two_sided) continue;
+        const std::size_t a = node(graph.pieces[i].a), b = node(graph.pieces[i].b);
+        if (a == b) refuse(line, "it encloses a part of the flow, with bodies or other two-sided lines: leave a gap");
+        parent[a] = b;
+    }
+}
+
+}  // namespace
+
+LineGraph arrange_lines(std::span<const InternalLine> lines, const decoupling::FarField& far_field,
+                        Geometry& geometry) {
+    LineGraph graph;
+    if (lines.empty()) return graph;
+    if (geometry::is_cut(geometry))
+        throw OptionError(option_name, "lines cannot be given beside bodies that a line of symmetry cuts");
+    const Box domain = far_field.box();
+    for (const InternalLine& line : lines)
+        for (const Point p : line.points)
+            if (!(domain.lower.x < p.x && p.x < domain.upper.x && domain.lower.y < p.y && p.y < domain.upper.y))
+                refuse(line, fmt::format("the point ({}, {}) is not inside the far field", p.x, p.y));
+    const Arrangement arrangement = arrange(lines, geometry);
+    const ConstrainedTriangulation& cells = arrangement.cells;
+    std::vector<std::size_t> pieces;
+    std::vector<char> used(arrangement.points.size());
+    for (std::size_t i = 0; i < cells.segments.size(); ++i) {
+        const auto [a, b] = cells.segments[i];
+        if (cells.parents[i] < arrangement.walls.size() ||
+            is_inside_body(geometry, midpoint(arrangement.points[a.index()], arrangement.points[b.index()])))
+            continue;
+        pieces.push_back(i);
+        used[a.index()] = used[b.index()] = 1;
+    }
+    std::vector<std::size_t> moved(arrangement.points.size());
+    for (std::size_t v = 0; v < moved.size(); ++v) moved[v] = v;
+    const InsertedVertices inserted = settle_on_walls(arrangement, used, geometry.elements.size(), moved);
+    std::set<Point, Lexicographic> on_wall(
+        arrangement.points.begin(), arrangement.points.begin() + static_cast<std::ptrdiff_t>(arrangement.wall_points));
+    for (std::size_t e = 0; e < geometry.elements.size(); ++e) {
+        for (const auto& [edge, points] : inserted[e]) on_wall.insert(points.begin(), points.end());
+        if (!inserted[e].empty()) insert_vertices(inserted[e], geometry.elements[e]);
+    }
+    std::map<std::size_t, VertexId> number;
+    std::set<std::pair<VertexId, VertexId>> known;
+    for (const std::size_t i : pieces) {
+        std::array<VertexId, 2> ends;
+        for (std::size_t k = 0; k < 2; ++k) {
+            const std::size_t v = moved[(k == 0 ? cells.segments[i].a : cells.segments[i].b).index()];
+            const auto [at, is_new] = number.try_emplace(v, VertexId{graph.points.size()});
+            if (is_new) {
+                graph.points.push_back(arrangement.points[v]);
+                graph.on_wall.push_back(on_wall.contains(arrangement.points[v]) ? 1 : 0);
+            }
+            ends[k] = at->second;
+        }
+        if (ends[0] == ends[1] || !known.insert(std::minmax(ends[0], ends[1])).second) continue;
+        graph.pieces.push_back({ends[0], ends[1]});
+        graph.line.push_back(arrangement.line[cells.parents[i] - arrangement.walls.size()]);
+    }
+    require_connected_domain(graph, lines, geometry);
+    return graph;
+}
+
+std::vector<SizeSource> sizes_between(const LineGraph& graph) {
+    std::vector<SizeSource> sources;
+    for (std::size_t v = 0; v < graph.points.size(); ++v) {
+        const Point p = graph.points[v];
+        double nearest = HUGE_VAL;
+        for (const Segment& piece : graph.pieces)
+            if (piece.a.index() != v && piece.b.index() != v)
+                nearest = std::min(nearest, core::distance_to_segment(p, graph.points[piece.a.index()],
+                                                                      graph.points[piece.b.index()]));
+        if (std::isfinite(nearest) && nearest > 0) sources.push_back({.a = p, .b = p, .size = nearest});
+    }
+    return sources;
+}
+
+layers::Obstacles obstacles_of(const LineGraph& graph, double first_height) {
+    constexpr double share = 1e-3;
+    const double gap = share * first_height;
+    layers::Obstacles obstacles;
+    for (std::size_t v = 0; v < graph.points.size(); ++v)
+        if (graph.on_wall[v]) obstacles.bare.push_back(graph.points[v]);
+    for (const Segment& piece : graph.pieces) {
+        const Point a = graph.points[piece.a.index()], b = graph.points[piece.b.index()];
+        const Point along = (1 / distance(a, b)) * (b - a);
+        obstacles.outlines.push_back({a + gap * along, b - gap * along});
+    }
+    return obstacles;
+}
+
+decoupling::InnerLines inner_lines(const LineGraph& graph, std::span<const InternalLine> lines,
+                                   const RegionBorders& region) {
+    decoupling::InnerLines inner;
+    if (graph.pieces.empty()) return inner;
+    std::map<Point, VertexId, Lexicographic> border_vertex;
+    std::vector<Segment> edges;
+    std::vector<Box> boxes;
+    for (const std::vector<VertexId>& border : region.borders)
+        for (std::size_t i = 0; i < border.size(); ++i) {
+            const VertexId a = border[i], b = border[i + 1 < border.size() ? i + 1 : 0];
+            border_vertex.emplace(region.points[a.index()], a);
+            edges.push_back({a, b});
+            boxes.push_back(core::bounding_box(region.points[a.index()], region.points[b.index()]));
+        }
+    std::vector<VertexId> id;
+    for (const Point p : graph.points) {
+        if (const auto found = border_vertex.find(p); found != border_vertex.end()) {
+            id.push_back(found->second);
+        } else {
+            id.push_back(VertexId{region.points.size() + inner.points.size()});
+            inner.points.push_back(p);
+        }
+    }
+    const core::BoxTree tree(std::move(boxes));
+    for (std::size_t i = 0; i < graph.pieces.size(); ++i) {
+        const Segment line{id[graph.pieces[i].a.index()], id[graph.pieces[i].b.index()]};
+        const Point a = graph.points[graph.pieces[i].a.index()], b = graph.points[graph.pieces[i].b.index()];
+        tree.overlaps(core::bounding_box(a, b), [&](std::size_t e) {
+            const Point c = region.points[edges[e].a.index()], d = region.points[edges[e].b.index()];
+            const bool shares_a = edges[e].a == line.a || edges[e].b == line.a;
+            const bool shares_b = edges[e].a == line.b || edges[e].b == line.b;
+            const auto folds = [&](Point at, Point other, VertexId v) {
+                return core::segments_fold(at, other, edges[e].a == v ? d : c);
+            };
+            const bool meets = shares_a && shares_b ? true
+                               : shares_a           ? folds(a, b, line.a)
+                               : shares_b           ? folds(b, a, line.b)
+                                                    : core::segments_meet(a, b, c, d);
+            if (meets)
+                throw MeshError(
+                    fmt::format("the layer crosses the line {} near ({}, {}): make it thinner there, or move the "
+                                "line",
+                                lines[graph.line[i]].name, c.x, c.y),
+                    c);
+        });
+        inner.lines.push_back(line);
+    }
+    return inner;
+}
+
+void add_line_markers(const LineGraph& graph, std::span<const InternalLine> lines,
+                      std::span<const std::vector<Segment>> inner_edges, std::vector<Marker>& markers) {
+    for (std::uint32_t k = 0; k < lines.size(); ++k) {
+        if (std::any_of(markers.begin(), markers.end(), [&](const Marker& m) { return m.name == lines[k].name; }))
+            refuse(lines[k], "another marker has this name already");
+        Marker marker{lines[k].name, MarkerKind::internal, {}};
+        for (std::size_t i = 0; i < graph.pieces.size(); ++i)
+            if (graph.line[i] == k)
+                marker.edges.insert(marker.edges.end(), inner_edges[i].begin(), inner_edges[i].end());
+        if (!marker.edges.empty()) markers.push_back(std::move(marker));
+    }
+}
+
+bool has_two_sided(std::span<const InternalLine> lines) {
+    return std::any_of(lines.begin(), lines.end(), [](const InternalLine& line) { return line.two_sided; });
+}
+
+namespace {
+
+/// The cells at the vertices of two-sided lines, and the copy of the vertex that each of them has.
+class VertexCopies {
+public:
+    VertexCopies(std::span<const Segment> lines, Mesh& mesh) : mesh_(mesh) {
+        for (const Segment& edge : lines) {
+            cut_.insert(std::minmax(edge.a, edge.b));
+            corners_.try_emplace(edge.a);
+            corners_.try_emplace(edge.b);
+        }
+        for (std::size_t t = 0; t < mesh.triangles.size(); ++t) collect(mesh.triangles[t].v, 3);
+        for (std::size_t q = 0; q < mesh.quads.size(); ++q) collect(mesh.quads[q].v, 4);
+        for (auto& [v, corners] : corners_) number(v, corners);
+    }
+
+    /// Gives the cells their copies.
+    void apply() {
+        for (const auto& [v, corners] : corners_)
+            for (const Corner& corner : corners) *corner.place = corner.copy;
+    }
+    /// Returns a directed edge with the copies that the cell on its left has; the edge itself where there is no such cell.
+    Segment on_left(Segment edge) const {
+        Segment result = edge;
+        if (const Corner* a = corner_with(edge.a, edge.b, true)) result.a = a->copy;
+        if (const Corner* b = corner_with(edge.b, edge.a, false)) result.b = b->copy;
+        return result;
+    }
+
+private:
+    /// The corner of a cell, and the vertices beside it, the next one counter-clockwise first.
+    struct Corner {
+        VertexId* place;
+        VertexId next, previous, copy;
+    };
+
+    void collect(VertexId* v, std::size_t n) {
+        for (std::size_t i = 0; i < n; ++i)
+            if (const auto found = corners_.find(v[i]); found != corners_.end())
+                found->second.push_back({&v[i], v[(i + 1) % n], v[(i + n - 1) % n], v[i]});
+    }
+    /// Numbers the copies of a vertex: one for each fan of cells between edges of lines and of the boundary. The first fan
+    /// keeps the vertex.
+    void number(VertexId v, std::vector<Corner>& corners) {
+        std::vector<char> done(corners.size());
+        bool is_first = true;
+        for (std::size_t first = 0; first < corners.size(); ++first) {
+            if (done[first]) continue;
+            VertexId copy = v;
+            if (!is_first) {
+                copy = VertexId{mesh_.points.size()};
+                mesh_.points.push_back(Point(mesh_.points[v.index()]));
+            }
+            is_first = false;
+            std::vector<std::size_t> fan{first};
+            done[first] = 1;
+            for (std::size_t k = 0; k < fan.size(); ++k) {
+                corners[fan[k]].copy = copy;
+                for (std::size_t i = 0; i < corners.size(); ++i) {
+                    if (done[i]) continue;
+                    const bool after = corners[i].next == corners[fan[k]].previous && !is_cut(v, corners[i].next);
+                    const bool before = corners[i].previous == corners[fan[k]].next && !is_cut(v, corners[i].previous);
+                    if (!after && !before) continue;
+                    done[i] = 1;
+                    fan.push_back(i);
+                }
+            }
+        }
+    }
+    bool is_cut(VertexId a, VertexId b) const { return cut_.contains(std::minmax(a, b)); }
+    /// Returns the corner at v whose next or previous vertex is this one; null where there is none.
+    const Corner* corner_with(VertexId v, VertexId other, bool is_next) const {
+        const auto found = corners_.find(v);
+        if (found == corners_.end()) return nullptr;
+        for (const Corner& corner : found->second)
+            if ((is_next ? corner.next : corner.previous) == other) return &corner;
+        return nullptr;
+    }
+
+    Mesh& mesh_;
+    std::set<std::pair<VertexId, VertexId>> cut_;
+    std::map<VertexId, std::vector<Corner>> corners_;
+};
+
+}  // namespace
+
+void split_two_sided(std::span<const InternalLine> lines, Mesh& mesh, std::vector<Segment>& constraints) {
+    const auto is_two_sided = [&](const Marker& marker) {
+        return marker.kind == MarkerKind::internal &&
+               std::any_of(lines.begin(), lines.end(),
+                           [&](const InternalLine& line) { return line.two_sided && line.name == marker.name; });
+    };
+    std::vector<Segment> cut;
+    for (const Marker& marker : mesh.markers)
+        if (is_two_sided(marker)) cut.insert(cut.end(), marker.edges.begin(), marker.edges.end());
+    VertexCopies copies(cut, mesh);
+    for (Marker& marker : mesh.markers) {
+        std::vector<Segment> edges;
+        const bool both = is_two_sided(marker);
+        for (const Segment& edge : marker.edges) {
+            edges.push_back(copies.on_left(edge));
+            if (both) edges.push_back(copies.on_left({edge.b, edge.a}));
+        }
+        if (both) marker.kind = MarkerKind::wall;
+        marker.edges = std::move(edges);
+    }
+    for (Segment& edge : constraints) {
+        const Segment moved = copies.on_left(edge);
+        edge = {std::min(moved.a, moved.b), std::max(moved.a, moved.b)};
+    }
+    std::sort(constraints.begin(), constraints.end());
+    copies.apply();
+}
+
+}  // namespace lamina::pipeline

@@ -1,0 +1,60 @@
+// Lines inside the domain that become edges of the mesh.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <lamina/pipeline.hpp>
+
+#include "decoupling/far_field.hpp"
+#include "decoupling/subdomain.hpp"
+#include "layers/stages.hpp"
+#include "pipeline/outer_walls.hpp"
+
+namespace lamina::pipeline {
+
+/// Returns the line that a text of the option means, and its text.
+InternalLine parse_line(const std::string& text);
+std::string line_text(const InternalLine& line);
+
+/// Throws OptionError for lines without a legal name of their own, without length, that run back on themselves, and for
+/// two-sided ones that are closed.
+void validate_lines(const CaseOptions& options);
+
+/// The lines outside the bodies, cut where they cross each other.
+struct LineGraph {
+    std::vector<Point> points;        ///< vertices, where lines bend, cross, end, or meet walls
+    std::vector<char> on_wall;        ///< per vertex: whether it is one of a wall
+    std::vector<Segment> pieces;      ///< straight, between vertices, in the order of the lines
+    std::vector<std::uint32_t> line;  ///< per piece: its line
+};
+
+/// Cuts lines where they cross each other and the bodies, and leaves out what lies inside bodies. A crossing with a wall
+/// becomes a vertex of the wall; one that is nearer to a vertex than three tenths of the edge becomes that vertex. So does
+/// an end of a line that is nearer to a wall than half its edge. Throws OptionError for a line outside the far field.
+LineGraph arrange_lines(std::span<const InternalLine> lines, const decoupling::FarField& far_field, Geometry& geometry);
+
+/// Returns sizes at the vertices of lines: their distances from other lines that they are no part of.
+std::vector<SizeSource> sizes_between(const LineGraph& graph);
+
+/// Returns the lines as obstacles, which stop short of vertices and walls by a thousandth of this height.
+layers::Obstacles obstacles_of(const LineGraph& graph, double first_height);
+
+/// Returns the lines as part of the outer region. Throws MeshError where the layer crosses a line.
+decoupling::InnerLines inner_lines(const LineGraph& graph, std::span<const InternalLine> lines,
+                                   const RegionBorders& region);
+
+/// Adds a marker for each line, which is internal. `inner_edges` are those of the pieces.
+void add_line_markers(const LineGraph& graph, std::span<const InternalLine> lines,
+                      std::span<const std::vector<Segment>> inner_edges, std::vector<Marker>& markers);
+
+/// Returns whether any line has two sides.
+bool has_two_sided(std::span<const InternalLine> lines);
+
+/// Doubles the vertices of two-sided lines, but for their free ends: their markers become walls that hold both sides.
+/// Vertices that are added come last.
+void split_two_sided(std::span<const InternalLine> lines, Mesh& mesh, std::vector<Segment>& constraints);
+
+}  // namespace lamina::pipeline

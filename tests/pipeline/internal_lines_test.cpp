@@ -1,0 +1,159 @@
+// Lines inside the domain (CaseOptions::lines): valid by the exact check, and where they should be.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <lamina/error.hpp>
+#include <lamina/io.hpp>
+#include <lamina/pipeline.hpp>
+#include <lamina/stream.hpp>
+
+#include "support/temporary_folder.hpp"
+
+namespace lamina {
+namespace {
+
+const Marker* marker_of(const Mesh& mesh, const std::string& name) {
+    for (const Marker& marker : mesh.markers)
+        if (marker.name == name) return &marker;
+    return nullptr;
+}
+
+double length_of(const Mesh& mesh, const Marker& marker) {
+    double sum = 0;
+    for (const Segment& edge : marker.edges) sum += distance(mesh.points[edge.a.index()], mesh.points[edge.b.index()]);
+    return sum;
+}
+
+CaseOptions options_with(std::vector<InternalLine> lines) {
+    CaseOptions options;
+    options.far_field.size = 10;
+    options.lines = std::move(lines);
+    return options;
+}
+
+TEST(InternalLines, AreEdgesBetweenCells) {
+    const MeshResult result =
+        generate_mesh({"naca:0012"}, options_with({{.name = "rake", .points = {{1.5, -0.5}, {1.5, 0.5}}}}));
+    EXPECT_TRUE(check_mesh(result.mesh).valid());
+    const Marker* rake = marker_of(result.mesh, "rake");
+    ASSERT_NE(rake, nullptr);
+    EXPECT_EQ(rake->kind, MarkerKind::internal);
+    EXPECT_NEAR(length_of(result.mesh, *rake), 1, 1e-12);
+    for (const Segment& edge : rake->edges) EXPECT_NEAR(result.mesh.points[edge.a.index()].x, 1.5, 1e-15);
+}
+
+TEST(InternalLines, WithASizeAreDividedByIt) {
+    const Mesh mesh = generate_mesh({"naca:0012"},
+                                    options_with({{.name = "disc", .points = {{1.5, -0.5}, {1.5, 0.5}}, .size = 0.02}}))
+                          .mesh;
+    EXPECT_NEAR(static_cast<double>(marker_of(mesh, "disc")->edges.size()), 50, 10);
+}
+
+TEST(InternalLines, EndOnWallsAndLayersGiveWay) {
+    const MeshResult result =
+        generate_mesh({"naca:0012"}, options_with({{.name = "probe", .points = {{0.5, 0}, {0.5, 0.5}}}}));
+    EXPECT_TRUE(check_mesh(result.mesh).valid());
+    // It begins at a vertex of the wall, no further than a part of an edge from where the line meets it.
+    const Marker* probe = marker_of(result.mesh, "probe");
+    ASSERT_NE(probe, nullptr);
+    EXPECT_NEAR(length_of(result.mesh, *probe), 0.5 - 0.0529, 1e-3);
+    EXPECT_GT(result.layer_coverage[0].share(), 0.9);
+}
+
+TEST(InternalLines, TwoSidedOnesAreWallsWithoutThickness) {
+    const Point tip{1.5, 0.5};
+    const MeshResult result =
+        generate_mesh({"naca:0012"}, options_with({{.name = "baffle", .points = {{1.5, -0.5}, tip}, .two_sided = true},
+                                                   {.name = "rake", .points = {{1.2, 0}, {1.8, 0.1}}}}));
+    const Mesh& mesh = result.mesh;
+    const MeshCheck check = check_mesh(mesh);
+    EXPECT_TRUE(check.valid());
+    EXPECT_EQ(check.boundary_loops, 3u);
+    const Marker* baffle = marker_of(mesh, "baffle");
+    ASSERT_NE(baffle, nullptr);
+    EXPECT_EQ(baffle->kind, MarkerKind::wall);
+    EXPECT_NEAR(length_of(mesh, *baffle), 2, 1e-12);
+    EXPECT_EQ(std::count(mesh.points.begin(), mesh.points.end(), tip), 1);
+    EXPECT_EQ(marker_of(mesh, "rake")->kind, MarkerKind::internal);
+
+    // The same two rows of edges in two markers are a crack, and so is a row that is marked on one side.
+    Mesh cracked = mesh;
+    auto& edges = cracked.markers[static_cast<std::size_t>(baffle - mesh.markers.data())].edges;
+    Marker other{"other", MarkerKind::wall, {}};
+    for (std::size_t i = 0; i < edges.size(); ++i)
+        if (i % 2 == 1) other.edges.push_back(edges[i]);
+    std::erase_if(edges,
+                  [&](Segment s) { return std::find(other.edges.begin(), other.edges.end(), s) != other.edges.end(); });
+    cracked.markers.push_back(other);
+    EXPECT_FALSE(check_mesh(cracked).valid());
+}
+
+TEST(InternalLines, RandomOnesRoundRandomSectionsAreValid) {
+    std::mt19937 random(3);
+    const auto uniform = [&](double a, double b) { return std::uniform_real_distribution<double>(a, b)(random); };
+    for (int trial = 0; trial < 8; ++trial) {
+        std::vector<InternalLine> lines;
+        for (int k = 0; k < 3; ++k)
+            lines.push_back(
+                {.name = "line" + std::to_string(k),
+                 .points = {{uniform(-0.5, 1.5), uniform(-0.5, 0.5)}, {uniform(-0.5, 1.5), uniform(-0.5, 0.5)}},
+                 .two_sided = k == 0});
+        const std::string section = "naca:" + std::to_string(1000 * (trial % 5) + 412 + trial);
+        const MeshResult result = generate_mesh({section.size() == 9 ? section : "naca:0012"}, options_with(lines));
+        EXPECT_TRUE(check_mesh(result.mesh).valid()) << trial;
+    }
+}
+
+TEST(InternalLines, MeshesAreTheSameOnAnyNumberOfThreads) {
+    CaseOptions options = options_with({{.name = "rake", .points = {{1.1, -0.2}, {0.9, 0.5}}}});
+    options.threads = 1;
+    const std::string hash = mesh_hash(generate_mesh({"naca:0012"}, options).mesh);
+    options.threads = 4;
+    EXPECT_EQ(mesh_hash(generate_mesh({"naca:0012"}, options).mesh), hash);
+}
+
+TEST(InternalLines, AreReadBackFromFormatsThatHoldThem) {
+    const test::TemporaryFolder folder;
+    const Mesh mesh =
+        generate_mesh({"naca:0012"}, options_with({{.name = "rake", .points = {{1.5, -0.5}, {1.5, 0.5}}},
+                                                   {.name = "baffle", .points = {{2, 0}, {2, 1}}, .two_sided = true}}))
+            .mesh;
+    for (const char* file : {"a.vtu", "a.msh"}) {
+        write_mesh(mesh, folder / file);
+        const Mesh read = read_mesh(folder / file);
+        EXPECT_TRUE(check_mesh(read).valid()) << file;
+        ASSERT_NE(marker_of(read, "rake"), nullptr) << file;
+        EXPECT_EQ(marker_of(read, "rake")->kind, MarkerKind::internal) << file;
+        EXPECT_TRUE(lost_marker_warnings(mesh.markers, folder / file).empty()) << file;
+    }
+    for (const char* file : {"a.su2", "a.ugrid"}) {
+        write_mesh(mesh, folder / file);
+        const Mesh read = read_mesh(folder / file);
+        EXPECT_TRUE(check_mesh(read).valid()) << file;
+        EXPECT_EQ(marker_of(read, "rake"), nullptr) << file;
+        EXPECT_EQ(lost_marker_warnings(mesh.markers, folder / file).size(), 1u) << file;
+    }
+}
+
+TEST(InternalLines, RefusalsSayWhy) {
+    const auto message = [](InternalLine line) {
+        try {
+            generate_mesh({"naca:0012"}, options_with({std::move(line)}));
+        } catch (const Error& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    EXPECT_NE(message({.name = "0", .points = {{2, 0}, {3, 0}}}).find("no name"), std::string::npos);
+    EXPECT_NE(message({.name = "a", .points = {{2, 0}, {30, 0}}}).find("not inside the far field"), std::string::npos);
+    EXPECT_NE(message({.name = "a", .points = {{2, 0}, {3, 0}, {2.5, 0}}}).find("runs back"), std::string::npos);
+    EXPECT_NE(message({.name = "airfoil", .points = {{2, 0}, {3, 0}}}).find("this name already"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace lamina
