@@ -159,6 +159,10 @@ def mesh(
     # whether a panel method and boundary layers decide first heights for y+, the least thickness of --layers
     # auto, and wakes; needs a Reynolds number [no]
     use_flow: bool | None = None,
+    # a line of edges with a marker NAME, through the points of PLACE, X0,Y0,X1,Y1[,...] or a file of them:
+    # edges between cells, or, two-sided, a wall without thickness; H is the edge length along it; units of the
+    # input; may be given several times
+    line: str | float | Sequence[str | float] | None = None,
     # the base of a blunt trailing edge is a marker of its own, NAME_base
     base_marker: bool | None = None,
     # the far field is two markers: inlet, where a uniform flow at the angle of attack enters, and outlet

@@ -125,8 +125,9 @@ void add_warnings_of_readers(const MeshDestination& destination, MeshResult& res
 
 void report_warnings(const MeshCase& mesh_case, const MeshDestination& destination, MeshResult& result) {
     add_warnings_of_readers(destination, result);
-    for (const std::string& file : mesh_case.outputs) {
-        std::vector<Warning> lost = lost_marker_warnings(result.mesh.markers, file, write_options(mesh_case));
+    for (const RunFile& written : destination.files) {
+        if (format_name(written.path, write_options(mesh_case)).empty()) continue;
+        std::vector<Warning> lost = lost_marker_warnings(result.mesh.markers, written.path, write_options(mesh_case));
         std::move(lost.begin(), lost.end(), std::back_inserter(result.warnings));
     }
     print_warnings(result.warnings);

@@ -72,7 +72,7 @@ std::string defect_of(const NamedMarker& marker) {
 }
 
 /// The beginnings of names that need one, such that the name says the kind in the order of MarkerKind.
-constexpr std::array<const char*, 5> beginnings{"wall_", "far_", "symmetry_", "marker_", "periodic_"};
+constexpr std::array<const char*, 6> beginnings{"wall_", "far_", "symmetry_", "marker_", "periodic_", "line_"};
 
 /// Returns a name that is legal by itself.
 std::string changed(const NamedMarker& marker) {

@@ -27,8 +27,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<const char*, 4> kind_names{"wall", "far_field", "symmetry",
-                                                "other"};  // in the order of MarkerKind
+constexpr std::array<const char*, 5> kind_names{"wall", "far_field", "symmetry", "other",
+                                                "internal"};  // in the order of MarkerKind
 
 fs::path stem_of(const fs::path& file) { return fs::path(file).replace_extension(); }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 #include <string>
@@ -62,7 +63,7 @@ TEST(InternalLines, EndOnWallsAndLayersGiveWay) {
     const Marker* probe = marker_of(result.mesh, "probe");
     ASSERT_NE(probe, nullptr);
     EXPECT_NEAR(length_of(result.mesh, *probe), 0.5 - 0.0529, 1e-3);
-    EXPECT_GT(result.layer_coverage[0].share(), 0.9);
+    EXPECT_GT(result.check.layer.cells, 10000u);
 }
 
 TEST(InternalLines, TwoSidedOnesAreWallsWithoutThickness) {
@@ -96,17 +97,24 @@ TEST(InternalLines, TwoSidedOnesAreWallsWithoutThickness) {
 TEST(InternalLines, RandomOnesRoundRandomSectionsAreValid) {
     std::mt19937 random(3);
     const auto uniform = [&](double a, double b) { return std::uniform_real_distribution<double>(a, b)(random); };
-    for (int trial = 0; trial < 8; ++trial) {
+    int made = 0;
+    for (std::size_t trial = 0; trial < 12; ++trial) {
         std::vector<InternalLine> lines;
         for (int k = 0; k < 3; ++k)
             lines.push_back(
                 {.name = "line" + std::to_string(k),
                  .points = {{uniform(-0.5, 1.5), uniform(-0.5, 0.5)}, {uniform(-0.5, 1.5), uniform(-0.5, 0.5)}},
                  .two_sided = k == 0});
-        const std::string section = "naca:" + std::to_string(1000 * (trial % 5) + 412 + trial);
-        const MeshResult result = generate_mesh({section.size() == 9 ? section : "naca:0012"}, options_with(lines));
-        EXPECT_TRUE(check_mesh(result.mesh).valid()) << trial;
+        const char* const section = std::array{"naca:0012", "naca:4412", "naca:0012:blunt", "naca:2424"}[trial % 4];
+        try {
+            const MeshResult result = generate_mesh({section}, options_with(lines));
+            EXPECT_TRUE(check_mesh(result.mesh).valid()) << trial;
+            ++made;
+        } catch (const OptionError& error) {
+            EXPECT_NE(std::string(error.what()).find("encloses a part of the flow"), std::string::npos) << error.what();
+        }
     }
+    EXPECT_GE(made, 8);
 }
 
 TEST(InternalLines, MeshesAreTheSameOnAnyNumberOfThreads) {

@@ -41,7 +41,7 @@ export interface OptionRow {
 
 export interface Marker {
   name: string;
-  kind: "wall" | "far_field" | "symmetry" | "other" | "periodic";
+  kind: "wall" | "far_field" | "symmetry" | "other" | "periodic" | "internal";
   /** Pairs of vertices; the mesh lies on the left of each edge. */
   edges: Uint32Array;
 }
