@@ -203,9 +203,11 @@ MadeMesh make_mesh(const FittedLayer& fitted, const CaseOptions& options, MeshDr
     if (!options.lines.empty()) {
         if (has_two_sided(options.lines)) split_two_sided(options.lines, result.mesh, made.constraints);
         result.mesh.constraints = made.constraints;
+        WallSummary walls = std::move(result.check.walls);  // of bodies: lines with two sides have no layers
         result.check =
             check_mesh(result.mesh, {.min_angle_deg = options.refine.min_angle_deg,
                                      .first_heights = first_heights_of_markers(result, result.mesh.markers)});
+        result.check.walls = std::move(walls);
         require_valid(result.check);
     }
     summarize_cells(layer, pieces.cells, result);
