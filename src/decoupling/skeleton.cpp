@@ -87,7 +87,7 @@ LineLoop Skeleton::loop_of(std::span<const std::uint32_t> edges) const {
             loop.add({line, n, 0});
         }
     }
-    if (!begin.forward) loop.add({begin.line, lines.segments(begin.line), 1});
+    if (const std::uint32_t n = lines.segments(begin.line); !begin.forward && n > 1) loop.add({begin.line, n, 1});
     assert(is_closed(loop, lines));
     return loop;
 }

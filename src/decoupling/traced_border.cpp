@@ -47,11 +47,20 @@ bool is_inside(const EdgeLoop& loop, Point p) {
     return inside;
 }
 
+/// Returns twice the area inside a loop. Edges that dangle count in neither direction: what their terms leave by rounding
+/// would make a region of a tree of lines.
 double doubled_area(const EdgeLoop& loop) {
+    std::vector<Segment> sorted;
+    for (const std::uint32_t e : loop.loop) sorted.push_back(loop.edges[e]);
+    std::sort(sorted.begin(), sorted.end());
     // Coordinates are relative to a vertex of the loop, because far from the origin the products would cancel.
     const Point o = loop.at(0);
     double area = 0;
-    for (std::size_t i = 0; i + 1 < loop.size(); ++i) area += cross(loop.at(i) - o, loop.at(i + 1) - o);
+    for (const std::uint32_t e : loop.loop) {
+        const auto [a, b] = loop.edges[e];
+        if (!std::binary_search(sorted.begin(), sorted.end(), Segment{b, a}))
+            area += cross(loop.points[a.index()] - o, loop.points[b.index()] - o);
+    }
     return area;
 }
 
