@@ -83,11 +83,12 @@ struct FlowWalls {
         pitch{};  ///< distance along y of the copies in an endless row; the stream is that far ahead of it
 };
 
-/// Returns the potential flow round all elements, as read or as prepared, between walls if there are any, and, where a Reynolds number is given, the
-/// boundary layers along their sides. Each element carries a vortex sheet of linear strength on some 200 straight
-/// panels. The stream function is constant along each body, and the flow leaves each trailing edge smoothly (Kutta), a
-/// base along the bisector of the sides. Images of the bodies stand for walls. Preconditions: check_simple(), and all
-/// elements lie between the walls. Throws OptionError for conditions out of range.
+/// Returns the potential flow round all elements, as read or as prepared, between walls if there are any, and, where a
+/// Reynolds number is given, the boundary layers along their sides. Each element carries a vortex sheet of linear
+/// strength on some 200 straight panels. The stream function is constant along each body, and the flow leaves each
+/// trailing edge smoothly (Kutta), a base along the bisector of the sides. Images of the bodies stand for walls.
+/// Preconditions: check_simple(), and all elements lie between the walls. Throws OptionError for conditions out of
+/// range.
 LAMINA_EXPORT Flow solve_flow(const Geometry& geometry, const FlowConditions& conditions = {},
                               const FlowWalls& walls = {});
 /// Returns the largest value along all walls, or along those of one element, of a number such as &FlowPoint::thickness.

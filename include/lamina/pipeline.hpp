@@ -72,8 +72,8 @@ struct CaseOptions {
 /// Throws OptionError where an option of any stage is out of range, where a y+ or the use of the flow lacks its
 /// Reynolds number, and where the flow is to cross the walls of a tunnel or the ground.
 LAMINA_EXPORT void validate(const CaseOptions& options);
-/// Returns ground and tunnel walls, or the row, of the domain round this geometry, as solve_flow() takes them. Throws OptionError
-/// where the flow is to cross them.
+/// Returns ground and tunnel walls, or the row, of the domain round this geometry, as solve_flow() takes them. Throws
+/// OptionError where the flow is to cross them.
 LAMINA_EXPORT FlowWalls flow_walls(const Geometry& geometry, const CaseOptions& options);
 /// Returns the options of a mesh that is similar to that of these options, with all lengths divided by `ratio`; below 1
 /// the mesh is coarser. Members of a family for a study of convergence are made so.

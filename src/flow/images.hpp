@@ -42,8 +42,8 @@ inline std::vector<Image> copies_in_row(double pitch) {
     return images;
 }
 
-/// Returns the images in these walls, or the copies in a row. Those in two walls have images themselves, without end, of alternating circulation:
-/// their sum ends with half of a term, so that it is in the middle of its last two values.
+/// Returns the images in these walls, or the copies in a row. Those in two walls have images themselves, without end,
+/// of alternating circulation: their sum ends with half of a term, so that it is in the middle of its last two values.
 inline std::vector<Image> images_in(const FlowWalls& walls) {
     if (walls.pitch) return copies_in_row(*walls.pitch);
     if (!walls.below && !walls.above) return {};

@@ -33,7 +33,8 @@ inline bool violates_delaunay(const MeshView& mesh, std::size_t edge, std::size_
                                  mesh.points[opposite.index()]);
 }
 
-/// Returns the constraints of the mesh and the edges of its internal markers, each once and with its smaller vertex first, sorted.
+/// Returns the constraints of the mesh and the edges of its internal markers, each once and with its smaller vertex
+/// first, sorted.
 std::vector<Segment> sorted_constraints(const MeshView& mesh);
 
 /// Takes the constraints between isotropic triangles out of a count of all interior edges: they are few, so this is

@@ -238,9 +238,9 @@ void refine_walls_below_borders(const SurfaceOptions& surface, double least_grad
     }
 }
 
-/// Shortens rays so that columns end below cells above `above` layers with an angle above 150 degrees, for as long as there are
-/// fewer and fewer of them. `obtuse_cells_of` finds them. What ends below one cell can leave others, which go in the next of
-/// seven rounds; three without gain end the search. Returns whether it changed the rays.
+/// Shortens rays so that columns end below cells above `above` layers with an angle above 150 degrees, for as long as
+/// there are fewer and fewer of them. `obtuse_cells_of` finds them. What ends below one cell can leave others, which go
+/// in the next of seven rounds; three without gain end the search. Returns whether it changed the rays.
 bool end_columns_below_obtuse_cells(
     std::uint16_t above, const std::function<std::vector<layers::ObtuseCell>(const layers::Rays&)>& obtuse_cells_of,
     std::vector<layers::ObtuseCell>& fewest, layers::Rays& best) {

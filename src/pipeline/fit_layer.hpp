@@ -47,8 +47,8 @@ struct FittedLayer {
 inline constexpr double largest_layer_angle_deg = 150;
 
 /// Makes rays on these walls. Walls become finer where the layer's border would be divided, and columns end below cells with
-/// angles above 150 degrees. Behind the layers that go on along a wake, its sources request sizes. Throws OptionError where layers
-/// do not fit into the far field.
+/// angles above 150 degrees. Behind the layers that go on along a wake, its sources request sizes. Throws OptionError
+/// where layers do not fit into the far field.
 FittedLayer fit_layer(PreparedWalls walls, const CaseOptions& options, const ReferenceConditions& conditions,
                       const layers::LayerGrowth& growth, std::vector<ElementWake> wakes);
 

@@ -295,6 +295,7 @@ LineGraph arrange_lines(std::span<const InternalLine> lines, const decoupling::F
     if (lines.empty()) return graph;
     if (geometry::is_cut(geometry))
         throw OptionError(option_name, "lines cannot be given beside bodies that a line of symmetry cuts");
+    if (geometry.pitch) throw OptionError(option_name, "lines cannot be given in a row of blades (--periodic)");
     const Box domain = far_field.box();
     for (const InternalLine& line : lines)
         for (const Point p : line.points)

@@ -22,9 +22,9 @@ struct OuterWallFacts {
     const char* option = "";  ///< that asks for it
 };
 
-/// Returns the walls of this far field, the lower one first. A line of symmetry is one of them unless it cuts bodies. Those that are no slip walls have layers, unless layers
-/// are disabled, with a first height of their own or that of `growth`. Throws OptionError for a y+ without a Reynolds
-/// number, and where a height contradicts the thickness.
+/// Returns the walls of this far field, the lower one first. A line of symmetry is one of them unless it cuts bodies.
+/// Those that are no slip walls have layers, unless layers are disabled, with a first height of their own or that of
+/// `growth`. Throws OptionError for a y+ without a Reynolds number, and where a height contradicts the thickness.
 std::vector<OuterWallFacts> outer_wall_facts(const decoupling::FarField& far_field, const FarFieldOptions& options,
                                              const Geometry& geometry, const LayerOptions& layer,
                                              const ReferenceConditions& conditions, const layers::LayerGrowth& growth);

@@ -27,9 +27,9 @@ using geometry::turning_angles;
 /// 125 degrees a vertex is a corner, unless its neighbours turn on by 5 to 60 degrees and the thickness grows like that
 /// of a parabola: as the distance to a power of 0.35 to 0.75.
 ///
-/// Corners are also all vertices of a coarse polygon, such as a box, a hexagon or a snowflake; those between two sides that are
-/// longer than 0.35 of the outline, where it turns by more than one degree; and the first and the last vertex, if they
-/// end the chord, turn by more than 60 degrees and are no such nose (docs/decisions/0009).
+/// Corners are also all vertices of a coarse polygon, such as a box, a hexagon or a snowflake; those between two sides
+/// that are longer than 0.35 of the outline, where it turns by more than one degree; and the first and the last vertex,
+/// if they end the chord, turn by more than 60 degrees and are no such nose (docs/decisions/0009).
 std::vector<std::size_t> find_corners(std::span<const Point> outline);
 
 /// Returns whether a point is one of the corners that an element brings along (Element::given_corners).

@@ -53,8 +53,8 @@ struct PiecesWork {
     Mesh check_layer(const layers::LayerCells& cells) const;
 };
 
-/// All pieces of a mesh, and where its cells are: in the mesh, which has neither markers nor constraints, in a sink, or in parts
-/// with the processes.
+/// All pieces of a mesh, and where its cells are: in the mesh, which has neither markers nor constraints, in a sink, or
+/// in parts with the processes.
 struct MadePieces {
     layers::LayerCells cells{};
     Mesh layer{};  ///< the cells as a mesh, which are part of the check
