@@ -8,8 +8,6 @@
 
 #include <Eigen/Cholesky>
 
-#include <lamina/error.hpp>
-
 #include "adaptation/hessian.hpp"
 #include "adaptation/vertex_patches.hpp"
 #include "core/parallel.hpp"
@@ -27,12 +25,6 @@ struct Sample {
     Point at;
     double value;
 };
-
-Point middle_of_cell(const Mesh& mesh, std::span<const VertexId> corners) {
-    Point sum{0, 0};
-    for (const VertexId v : corners) sum = sum + mesh.points[v.index()];
-    return (1.0 / static_cast<double>(corners.size())) * sum;
-}
 
 /// Collects the values round a vertex.
 class SampleSearch {
@@ -99,14 +91,6 @@ Hessian fitted_hessian(Point origin, const std::vector<Sample>& samples) {
     const double scale = 1 / (reach * reach);
     const Hessian hessian{2 * scale * c[3], scale * c[4], 2 * scale * c[5]};
     return std::isfinite(hessian.xx) && std::isfinite(hessian.xy) && std::isfinite(hessian.yy) ? hessian : Hessian{};
-}
-
-void require_fitting(const Mesh& mesh, const SolutionField& field) {
-    const std::size_t places = field.at_cells ? mesh.triangles.size() + mesh.quads.size() : mesh.points.size();
-    if (field.values.size() != places)
-        throw OptionError("field", "'" + field.name + "' has " + std::to_string(field.values.size()) +
-                                       " values where the mesh has " + std::to_string(places) +
-                                       (field.at_cells ? " cells" : " vertices"));
 }
 
 }  // namespace

@@ -1,6 +1,9 @@
 #include "adaptation/vertex_patches.hpp"
 
 #include <algorithm>
+#include <string>
+
+#include <lamina/error.hpp>
 
 #include "mesh/adjacency.hpp"
 
@@ -45,6 +48,20 @@ std::vector<char> isotropic_cells(const Mesh& mesh) {
     for (std::size_t i = 0; i < regions.size(); ++i) isotropic[i] = regions[i] == Region::isotropic;
     for (int ring = 0; !known && ring < doubtful_rings; ++ring) take_ring(mesh, isotropic);
     return isotropic;
+}
+
+Point middle_of_cell(const Mesh& mesh, std::span<const VertexId> corners) {
+    Point sum{0, 0};
+    for (const VertexId v : corners) sum = sum + mesh.points[v.index()];
+    return (1.0 / static_cast<double>(corners.size())) * sum;
+}
+
+void require_fitting(const Mesh& mesh, const SolutionField& field) {
+    const std::size_t places = field.at_cells ? mesh.triangles.size() + mesh.quads.size() : mesh.points.size();
+    if (field.values.size() != places)
+        throw OptionError("field", "'" + field.name + "' has " + std::to_string(field.values.size()) +
+                                       " values where the mesh has " + std::to_string(places) +
+                                       (field.at_cells ? " cells" : " vertices"));
 }
 
 VertexCells::VertexCells(const Mesh& mesh, std::span<const char> chosen)

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <lamina/mesh.hpp>
+#include <lamina/solution.hpp>
 
 namespace lamina::adaptation {
 
@@ -13,6 +14,11 @@ namespace lamina::adaptation {
 /// it has none, estimate_regions(), and then two rings of cells round the layer do not count; a mesh without a layer is
 /// isotropic everywhere.
 std::vector<char> isotropic_cells(const Mesh& mesh);
+
+/// Returns the mean of the corners of a cell.
+Point middle_of_cell(const Mesh& mesh, std::span<const VertexId> corners);
+/// Throws OptionError where a field has another number of values than the mesh has vertices or cells.
+void require_fitting(const Mesh& mesh, const SolutionField& field);
 
 /// The chosen cells at each vertex.
 class VertexCells {
