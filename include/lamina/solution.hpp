@@ -31,12 +31,13 @@ struct Solution {
 };
 
 /// Reads fields of a solution: a VTU file of triangles and quads with point data or cell data, or a time folder of an
-/// OpenFOAM case with fields in ASCII (volScalarField, volVectorField) on a mesh one cell thick, or the folder of the
-/// case, of which the latest time is read. A name is that of an array of one component; "NAME:x", "NAME:y" or "NAME:z",
+/// OpenFOAM case with fields in ASCII or binary (volScalarField, volVectorField) on a mesh one cell thick, or the folder
+/// of the case, of which the latest time is read; or a restart file of SU2 (.dat, .csv), whose vectors are those with the
+/// components NAME_x and NAME_y. A name is that of an array of one component; "NAME:x", "NAME:y" or "NAME:z",
 /// a component; or "mag(NAME)", the length of its vectors. Point data come before cell data of the same name. `mesh`
-/// holds the mesh of the solution in any format that can be read; empty: the VTU file itself, or constant/polyMesh
-/// beside the time folder. Throws IoError; UsageError where a field or component is missing; InputError where a file is
-/// malformed, where numbers of values and of points or cells differ, and where a value is not finite.
+/// holds the mesh of the solution in any format that can be read; empty: the VTU file itself, constant/polyMesh beside
+/// the time folder, or mesh.su2 beside the restart file. Throws IoError; UsageError where a field or component is missing; InputError where a file is
+/// malformed or of another mesh, where numbers of values and of points or cells differ, and where a value is not finite.
 LAMINA_EXPORT Solution read_solution(const std::filesystem::path& solution, const std::vector<std::string>& fields,
                                      const std::filesystem::path& mesh = {});
 /// Writes sizes as a VTU file: point data `size`, and the field data

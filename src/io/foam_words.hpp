@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstring>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -60,18 +62,34 @@ public:
         expect(")");
         if (!next().empty()) fail("something follows the list");
     }
-    /// Reads "FoamFile { ... }" and returns the class of its contents. Fails unless it announces ASCII.
-    std::string read_header() {
+    /// Reads numbers behind "N (" in the machine's own bytes, as binary files have them, without the bracket that follows.
+    std::vector<double> binary_numbers(std::size_t count) {
+        if (count > (bytes_.size() - at_) / sizeof(double)) fail("the file ends within a list");
+        std::vector<double> numbers(count);
+        std::memcpy(numbers.data(), bytes_.data() + at_, count * sizeof(double));
+        at_ += count * sizeof(double);
+        return numbers;
+    }
+    /// Whether the header announces a binary file.
+    bool is_binary() const { return binary_; }
+    /// Reads "FoamFile { ... }" and returns the class of its contents. Fails unless it announces ASCII or, where the caller
+    /// copes with lists in binary, those of numbers of 64 bits.
+    std::string read_header(bool copes_with_binary = false) {
         std::string type;
         expect("FoamFile");
         expect("{");
         for (std::string_view key; (key = next()) != "}";) {
             const std::string_view value = next();
             if (key.empty() || value.empty()) fail("the header does not end");
-            if (key == "format" && value != "ascii") fail("only ASCII can be read (foamFormatConvert makes it)");
+            if (key == "format") binary_ = value == "binary";
+            if (key == "format" && value != "ascii" && !(binary_ && copes_with_binary))
+                fail("only ASCII can be read (foamFormatConvert makes it)");
+            if (key == "arch" && (!value.starts_with("\"LSB") || value.find("scalar=32") != std::string_view::npos))
+                odd_arch_ = true;
             if (key == "class") type = value;
             expect(";");
         }
+        if (binary_ && odd_arch_) fail("only numbers of 64 bits, the least byte first, can be read in binary");
         return type;
     }
     /// Does the same, and fails where the contents are of another class.
@@ -102,6 +120,7 @@ private:
 
     std::string file_, bytes_;
     std::size_t at_ = 0;
+    bool binary_ = false, odd_arch_ = false;  ///< what the header says
 };
 
 }  // namespace lamina::io

@@ -1,4 +1,4 @@
-// Reads the fields of an OpenFOAM case in ASCII. Source: OpenFOAM user guide, "Boundaries", "Basic input/output file
+// Reads the fields of an OpenFOAM case in ASCII or binary. Source: OpenFOAM user guide, "Boundaries", "Basic input/output file
 // format".
 #include <charconv>
 #include <cmath>
@@ -52,7 +52,7 @@ void skip_entry(FoamWords& in) {
 
 CellValues read_values(const fs::path& file) {
     FoamWords in(file);
-    const std::string type = in.read_header();
+    const std::string type = in.read_header(true);
     CellValues result;
     if (type == "volVectorField")
         result.components = 3;
@@ -70,6 +70,11 @@ CellValues read_values(const fs::path& file) {
         in.next();  // List<scalar> or List<vector>
         count = in.begin_list("number of values", result.components == 1 ? std::string_view("0 ").size()
                                                                          : std::string_view("(0 0 0)").size());
+    }
+    if (!result.uniform && in.is_binary()) {
+        result.values = in.binary_numbers(count * result.components);
+        in.expect(")");
+        return result;
     }
     result.values.reserve(count * result.components);
     for (std::size_t i = 0; i < count; ++i) read_tuple(in, result.components, result.values);

@@ -14,6 +14,7 @@
 #include "core/atomic_file.hpp"
 #include "io/field_request.hpp"
 #include "io/formats.hpp"
+#include "io/su2_restart.hpp"
 
 namespace lamina::io {
 
@@ -87,8 +88,10 @@ Solution read_solution(const std::filesystem::path& solution, const std::vector<
     for (const std::string& name : fields) requests.push_back(parse_field(name));
     std::error_code ignored;
     if (std::filesystem::is_directory(solution, ignored)) return read_openfoam_solution(solution, requests, mesh);
+    if (solution.extension() == ".dat" || solution.extension() == ".csv")
+        return read_su2_solution(solution, requests, mesh);
     if (find_format(solution).name != find_format("solution.vtu").name)
-        throw UsageError(fmt::format("{}: solutions are VTU files or time folders of OpenFOAM", solution.string()));
+        throw UsageError(fmt::format("{}: solutions are VTU files, restart files of SU2 (.dat, .csv) or time folders of OpenFOAM", solution.string()));
     Solution result = read_vtu_solution(read_file(solution), input_name(solution), requests);
     if (!mesh.empty()) replace_mesh(read_mesh(mesh), mesh, result);
     return result;

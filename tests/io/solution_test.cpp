@@ -15,6 +15,7 @@
 #include <lamina/io.hpp>
 #include <lamina/solution.hpp>
 
+#include "io/su2_restart.hpp"
 #include "support/sample_meshes.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -120,6 +121,71 @@ TEST(Solution, FieldsOfOpenFoamFollowTheNumbersOfItsCells) {
         folder.write("case/200/tensor", foam_field("volTensorField", "uniform 1"));
         EXPECT_THROW(read_solution(folder / "case/200", {"tensor"}), InputError);
     }
+}
+
+TEST(Solution, FieldsOfOpenFoamInBinary) {
+    const TemporaryFolder folder;
+    const Mesh mesh = tiny();
+    write_mesh(mesh, folder / "case/constant/polyMesh");
+    std::filesystem::create_directories(folder / "case/200");
+    const std::vector<double> values{1.5, -2e300, 3.25, 4, 5, 6};
+    const std::string bytes(reinterpret_cast<const char*>(values.data()), 48);
+    std::string text = foam_field("volScalarField", "nonuniform List<scalar> \n2\n(" + bytes.substr(0, 16) + ")");
+    const auto write = [&](const std::string& name, std::string field, const std::string& arch) {
+        field.replace(field.find("ascii"), 5, "binary");
+        field.replace(field.find("LSB;label=32"), 12, arch);
+        folder.write("case/200/" + name, field);
+    };
+    const std::string usual = "LSB;label=32;scalar=64";
+    write("p", text, usual);
+    write("U", foam_field("volVectorField", "nonuniform List<vector> 2(" + bytes + ")"), usual);
+    const Solution solution = read_solution(folder / "case", {"p", "U:z"});
+    EXPECT_EQ(std::multiset<double>(solution.fields[0].values.begin(), solution.fields[0].values.end()),
+              (std::multiset<double>{1.5, -2e300}));
+    EXPECT_EQ(std::multiset<double>(solution.fields[1].values.begin(), solution.fields[1].values.end()),
+              (std::multiset<double>{3.25, 6}));
+    write("single", text, "LSB;label=32;scalar=32");
+    EXPECT_THROW(read_solution(folder / "case", {"single"}), InputError);
+    write("cut", text.substr(0, text.find('(') + 9), usual);
+    EXPECT_THROW(read_solution(folder / "case", {"cut"}), InputError);
+}
+
+TEST(Solution, RestartsOfSu2) {
+    const TemporaryFolder folder;
+    const Mesh mesh = annulus({});
+    write_mesh(mesh, folder / "mesh.su2");
+    io::Su2Restart restart{{"x", "y", "Density", "Velocity_x", "Velocity_y"}, {{}, {}, {}, {}, {}}};
+    std::string csv = "\"PointID\",\"x\",\"y\",\"Density\",\"Velocity_x\",\"Velocity_y\"\n";
+    for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+        const Point p = mesh.points[i];
+        const double row[] = {p.x, p.y, 1 + p.x / 3, 3 * p.y, 4 * p.y};
+        for (std::size_t f = 0; f < 5; ++f) restart.values[f].push_back(row[f]);
+        csv += fmt::format("{}, {}, {}, {}, {}, {}\n", i, row[0], row[1], row[2], row[3], row[4]);
+    }
+    io::write_su2_restart(restart, folder / "restart_flow.dat");
+    folder.write("restart_flow.csv", csv + "EXT_ITER= 100\n");
+    for (const char* file : {"restart_flow.dat", "restart_flow.csv"}) {
+        const Solution solution = read_solution(folder / file, {"Density", "Velocity:y", "mag(Velocity)"});
+        EXPECT_EQ(solution.fields[0].values, restart.values[2]);
+        EXPECT_EQ(solution.fields[1].values, restart.values[4]);
+        for (std::size_t i = 0; i < mesh.points.size(); ++i)
+            EXPECT_NEAR(solution.fields[2].values[i], 5 * std::abs(mesh.points[i].y), 1e-9);
+        EXPECT_THROW(read_solution(folder / file, {"Mach"}), UsageError);
+        write_mesh(tiny(), folder / "other.su2");
+        EXPECT_THROW(read_solution(folder / file, {"Density"}, folder / "other.su2"), InputError);
+    }
+    const std::string whole = folder.read("restart_flow.dat");
+    folder.write("cut.dat", whole.substr(0, whole.size() - 1));
+    EXPECT_THROW(read_solution(folder / "cut.dat", {"Density"}), InputError);
+    folder.write("text.dat", "VARIABLES = x\n");
+    EXPECT_THROW(read_solution(folder / "text.dat", {"Density"}), InputError);
+    restart.values[2][3] = NAN;
+    io::write_su2_restart(restart, folder / "diverged.dat");
+    EXPECT_THROW(read_solution(folder / "diverged.dat", {"Density"}), InputError);
+    restart.values[2][3] = 1;
+    restart.values[0][3] += 1;
+    io::write_su2_restart(restart, folder / "moved.dat");
+    EXPECT_THROW(read_solution(folder / "moved.dat", {"Density"}), InputError);
 }
 
 TEST(Solution, PointDataAndCellDataOfVtuFiles) {
