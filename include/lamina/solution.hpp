@@ -40,6 +40,12 @@ struct Solution {
 /// malformed or of another mesh, where numbers of values and of points or cells differ, and where a value is not finite.
 LAMINA_EXPORT Solution read_solution(const std::filesystem::path& solution, const std::vector<std::string>& fields,
                                      const std::filesystem::path& mesh = {});
+/// Returns the names with which read_solution() reads all point data and cell data of a VTU file: "p", "U:x", "U:y". Arrays
+/// that lamina writes about a mesh are left out. Throws IoError and InputError.
+LAMINA_EXPORT std::vector<std::string> solution_fields(const std::filesystem::path& file);
+/// Writes a solution as a VTU file of lamina. Fields that are named as the components of a vector, "U:x", "U:y" and "U:z" in
+/// a row, become one array. Throws IoError.
+LAMINA_EXPORT void write_solution(const Solution& solution, const std::filesystem::path& file);
 /// Writes sizes as a VTU file: point data `size`, and the field data
 /// `lamina_size_gradation` where SizedMesh::gradation is set. Throws IoError.
 LAMINA_EXPORT void write_sizes(const SizedMesh& sizes, const std::filesystem::path& file);

@@ -92,5 +92,11 @@ LAMINA_EXPORT void check_solver_case_writable(FlowSolver solver, const std::file
 /// Writes mesh and case into a folder, which is created if it is missing.
 LAMINA_EXPORT void write_solver_case(FlowSolver solver, const Mesh& mesh, const SolverConditions& conditions,
                                      const std::filesystem::path& folder, const SolverCaseOptions& options = {});
+/// Gives a steady case that was just written the flow of a solved one as its start, by transfer(): Allrun goes on from there.
+/// OpenFOAM's fields in 0/ are replaced, and system/start holds the lift coefficient, for the vortex of the far field;
+/// SU2's flow is in start_flow.dat. Throws IoError, and InputError or UsageError where the solution is incomplete, is of
+/// another mesh or has numbers that are not finite.
+LAMINA_EXPORT void start_case_from(FlowSolver solver, const std::filesystem::path& solved,
+                                   const std::filesystem::path& folder, double lift);
 
 }  // namespace lamina

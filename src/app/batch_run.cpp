@@ -23,7 +23,7 @@
 #include <lamina/pipeline.hpp>
 #include <lamina/version.hpp>
 
-#include "app/case_file.hpp"
+#include "app/fingerprint.hpp"
 #include "app/mesh_command_options.hpp"
 #include "app/mesh_run.hpp"
 #include "app/options.hpp"
@@ -37,30 +37,6 @@ namespace lamina::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The hash of no text.
-constexpr std::uint64_t no_text = 0xcbf29ce484222325u;
-
-/// Adds the bytes of a text to a hash. Source: G. Fowler, L. C. Noll, K.-P. Vo, the FNV-1a hash (RFC 9923).
-std::uint64_t hashed(std::uint64_t hash, std::string_view text) {
-    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-    return hash;
-}
-
-std::string text_of(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
-
-/// Returns digits that change where an input does, or an option that changes the outcome of a job.
-std::string fingerprint(MeshCase mesh_case) {
-    mesh_case.quiet = false;
-    mesh_case.progress = ProgressShown::automatic;
-    mesh_case.options.threads = 0;
-    std::uint64_t hash = hashed(no_text, dump_case(mesh_case));
-    for (const RunFile& file : files_of_case(mesh_case)) {
-        std::error_code ignored;
-        if (fs::is_regular_file(file.path, ignored)) hash = hashed(hash, read_file(file.path));
-    }
-    return text_of(hash);
-}
 
 /// Returns the text that names a job among those of a batch.
 std::string id_of(const BatchJob& job) {

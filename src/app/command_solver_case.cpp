@@ -1,10 +1,6 @@
 // lamina case: makes a mesh and writes it with everything that a flow solver needs beside it.
-#include <algorithm>
-#include <iterator>
 #include <memory>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -16,9 +12,8 @@
 #include "app/mesh_command_options.hpp"
 #include "app/mesh_run.hpp"
 #include "app/options.hpp"
-#include "app/presets.hpp"
+#include "app/solver_case_run.hpp"
 #include "app/table_option.hpp"
-#include "core/option_builders.hpp"
 
 namespace lamina::app {
 
@@ -31,71 +26,6 @@ struct CaseArguments {
     std::shared_ptr<FamilyArguments> family;
 };
 
-FlowSolver solver_of_name(const std::string& name) {
-    std::vector<std::string> names;
-    for (const auto& [known, solver] : flow_solvers()) {
-        if (known == name) return solver;
-        names.push_back(known);
-    }
-    throw UsageError("SOLVER: " + unknown_choice(name, names));
-}
-
-/// The y+ from which on walls get wall functions: the end of the viscous sublayer.
-constexpr double least_y_plus_of_wall_functions = 5;
-
-SolverConditions solver_conditions(const MeshResult& result, const CaseOptions& options) {
-    SolverConditions conditions{
-        .reference = result.conditions,
-        .velocity = options.conditions.velocity,
-        .wall_functions = result.y_plus && result.y_plus->y_plus > least_y_plus_of_wall_functions};
-    const FarFieldOptions& far_field = options.far_field;
-    if (far_field.ground && far_field.ground_wall != OuterWallKind::slip) conditions.outer_walls.push_back("ground");
-    if (far_field.ground_wall == OuterWallKind::moving) conditions.moving_walls = conditions.outer_walls;
-    if (far_field.tunnel && far_field.tunnel_walls != OuterWallKind::slip) {
-        if (!far_field.ground) conditions.outer_walls.push_back("floor");
-        conditions.outer_walls.push_back("ceiling");
-    }
-    conditions.axisymmetric = far_field.axisymmetric;
-    return conditions;
-}
-
-/// Returns what the solver makes of the mesh and of the speed.
-std::vector<Warning> warnings_of_case(FlowSolver solver, const MeshResult& result, const SolverCaseOptions& options) {
-    std::vector<Warning> warnings = find_solver_warnings(solver, result.mesh);
-    if (solver == FlowSolver::openfoam && !options.compressible) return warnings;
-    std::vector<Warning> of_speed =
-        find_speed_warnings(result.conditions.mach.value_or(default_case_mach), result.flow ? &*result.flow : nullptr,
-                            result.decisions.knows_shocks);
-    std::move(of_speed.begin(), of_speed.end(), std::back_inserter(warnings));
-    return warnings;
-}
-
-MeshDestination destination_of_case(FlowSolver solver, const MeshCase& mesh_case, const SolverCaseOptions& options) {
-    const std::string folder = mesh_case.outputs.front();
-    MeshDestination destination;
-    for (const auto& file : solver_case_outputs(solver, folder, options))
-        destination.files.push_back({file, "option --output " + folder});
-    destination.require_writable = [=] { check_solver_case_writable(solver, folder, options); };
-    destination.warnings = [=](const MeshResult& result) { return warnings_of_case(solver, result, options); };
-    destination.write = [=, &mesh_case](const MeshResult& result) {
-        write_solver_case(solver, result.mesh, solver_conditions(result, mesh_case.options), folder, options);
-    };
-    return destination;
-}
-
-/// Sets what the solver prefers where neither a case file nor the command line says otherwise.
-void apply_preferences(FlowSolver solver, MeshCase& mesh_case) {
-    // Cells far away cost iterations and change little: drag by 0.2 % (docs/decisions/0038).
-    constexpr double gradation = 0.13;
-    prefer_quads(mesh_case);
-    CaseOptions& options = mesh_case.options;
-    if (!is_given(mesh_case, "far-field") && !options.far_field.tunnel && !options.far_field.pitch)
-        options.far_field.size = Length{far_field_for(solver, options.conditions.mach.value_or(default_case_mach))};
-    // Some presets have one of their own.
-    if (!is_given(mesh_case, "gradation") && options.sizing.gradation == SizingOptions{}.gradation)
-        options.sizing.gradation = gradation;
-}
-
 void make_case(const CaseArguments& arguments) {
     const FlowSolver solver = solver_of_name(arguments.solver);
     SolverCaseOptions options;
@@ -106,15 +36,7 @@ void make_case(const CaseArguments& arguments) {
     if (arguments.folder.empty()) throw UsageError("no output: give -o DIR");
     mesh_case.outputs = {arguments.folder};
     mesh_case.format.clear();
-    options.compressible = mesh_case.options.conditions.mach.has_value();
-    validate(solver, options, mesh_case.options.conditions.mach);
-    apply_preferences(solver, mesh_case);
-    require_consistent(mesh_case);
-    if (const LayerOptions& layer = mesh_case.options.layer;
-        solver == FlowSolver::su2 && layer.enabled && layer.topology != LayerTopology::quads)
-        throw OptionError("layer-topology", "must be quads in a case of SU2, which finds wrong forces on triangles");
-    if (const FlowConditions& flow = mesh_case.options.conditions; !flow.reynolds && !flow.velocity)
-        throw OptionError("reynolds", "a case needs it, or velocity and viscosity");
+    prepare_case(solver, options, mesh_case);
     if (arguments.family->levels == 1) {
         run_mesh(mesh_case, destination_of_case(solver, mesh_case, options));
         return;

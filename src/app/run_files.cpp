@@ -219,6 +219,7 @@ void SignalGuard::wait_for_signals() {
     } catch (...) {
         // Where memory is lacking, the passes before have to do.
     }
+    if (const pid_t group = group_; group > 0) ::kill(-group, signal);
     // The process ends as if the signal had not been caught, so that shells and scripts see it.
     std::signal(signal, SIG_DFL);
     sigset_t this_signal;  // and no other, such as the one that ends the thread

@@ -56,12 +56,16 @@ public:
     SignalGuard(const SignalGuard&) = delete;
     SignalGuard& operator=(const SignalGuard&) = delete;
 
+    /// From now on the signals go to this group of processes as well, before they end this one; 0: to none.
+    void take_along(pid_t group) { group_ = group; }
+
 private:
     std::vector<std::filesystem::path> folders_;          ///< those of temporary files
     std::vector<std::filesystem::path> missing_folders_;  ///< folders above the outputs, inner ones before outer ones
     sigset_t signals_;                                    ///< those that the thread waits for
     sigset_t mask_before_;                                ///< those that were blocked before
     std::atomic<bool> ended_ = false;
+    std::atomic<pid_t> group_ = 0;  ///< of the processes that get the signals, too
     std::thread thread_;
 
     void wait_for_signals();

@@ -64,7 +64,7 @@ std::string row_conditions(const CaseFlow& flow, const BladeRow& row) {
 }
 
 constexpr const char* steady_comment =
-    R"(% Allrun changes AOA, ITER and RESTART_SOL on the way to a large angle of attack. To go on with an earlier run, rename
+    R"(% Allrun changes AOA, ITER, RESTART_SOL and CONV_... where it needs to. To go on with an earlier run, rename
 % restart_flow.dat to solution_flow.dat, set RESTART_SOL= YES, and run SU2_CFD case.cfg.)";
 
 /// With the largest number of iterations to fill in.

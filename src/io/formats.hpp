@@ -98,6 +98,10 @@ void read_vtu_arrays(const std::filesystem::path& file, MeshArrays& arrays);
 /// Reads the mesh and these fields.
 Solution read_vtu_solution(const std::string& bytes, const std::filesystem::path& file,
                            std::span<const FieldRequest> fields);
+/// Returns solution_fields().
+std::vector<std::string> vtu_fields(const std::string& bytes, const std::filesystem::path& file);
+/// Writes the mesh and all fields.
+void write_vtu_solution(const Solution& solution, std::ostream& out);
 /// Writes a part of a mesh, with the numbers of its vertices in the mesh.
 void write_vtu_part(const MeshView& part, std::span<const VertexId> vertices, std::ostream& out);
 /// Returns the list and the files of the parts.

@@ -70,6 +70,12 @@ void replace_mesh(Mesh mesh, const std::filesystem::path& file, Solution& soluti
                          fmt::format("{} vertices, {} triangles and {} quads, where the solution has {}, {} and {}",
                                      mesh.points.size(), mesh.triangles.size(), mesh.quads.size(), old.points.size(),
                                      old.triangles.size(), old.quads.size()));
+    Box box;
+    for (const Point p : mesh.points) box.include(p);
+    const double rounding = 1e-5 * box.width();  // many solvers write coordinates in single precision
+    for (std::size_t i = 0; i < mesh.points.size(); ++i)
+        if (distance(mesh.points[i], old.points[i]) > rounding)
+            throw InputError({file.string(), 0, {}}, fmt::format("vertex {} lies elsewhere in the solution", i));
     solution.mesh = std::move(mesh);
 }
 
@@ -91,10 +97,20 @@ Solution read_solution(const std::filesystem::path& solution, const std::vector<
     if (solution.extension() == ".dat" || solution.extension() == ".csv")
         return read_su2_solution(solution, requests, mesh);
     if (find_format(solution).name != find_format("solution.vtu").name)
-        throw UsageError(fmt::format("{}: solutions are VTU files, restart files of SU2 (.dat, .csv) or time folders of OpenFOAM", solution.string()));
+        throw UsageError(
+            fmt::format("{}: solutions are VTU files, restart files of SU2 (.dat, .csv) or time folders of OpenFOAM",
+                        solution.string()));
     Solution result = read_vtu_solution(read_file(solution), input_name(solution), requests);
     if (!mesh.empty()) replace_mesh(read_mesh(mesh), mesh, result);
     return result;
+}
+
+std::vector<std::string> solution_fields(const std::filesystem::path& file) {
+    return vtu_fields(read_file(file), input_name(file));
+}
+
+void write_solution(const Solution& solution, const std::filesystem::path& file) {
+    core::write_stream_atomically(file, [&](std::ostream& out) { write_vtu_solution(solution, out); });
 }
 
 void write_sizes(const SizedMesh& sizes, const std::filesystem::path& file) {

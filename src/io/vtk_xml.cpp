@@ -201,6 +201,13 @@ std::vector<std::string> VtkXmlFile::scalars(const std::string& section) const {
     return names;
 }
 
+std::vector<std::string> VtkXmlFile::arrays(const std::string& section) const {
+    std::vector<std::string> names;
+    for (const auto& [name, array] : arrays_)
+        if (name.starts_with(section + "/")) names.push_back(name.substr(section.size() + 1));
+    return names;
+}
+
 const VtkXmlFile::ArrayHeader& VtkXmlFile::header_of(const std::string& name) const {
     const auto found = arrays_.find(name);
     if (found == arrays_.end()) fail(fmt::format("array '{}' is missing", name));

@@ -31,6 +31,8 @@ public:
     bool has(const std::string& name) const { return arrays_.contains(name); }
     /// Returns the names, without the section, of the arrays of one component in a section.
     std::vector<std::string> scalars(const std::string& section) const;
+    /// Returns the names of all arrays in a section, likewise.
+    std::vector<std::string> arrays(const std::string& section) const;
     /// Returns the number of components of an array. Fails where there is no such array.
     std::size_t components(const std::string& name) const;
     /// Returns the values of an array, converted from the type that they are stored in. Fails for integers that T

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -263,6 +264,23 @@ PointValues read_vtu_sizes(const std::string& bytes, const std::filesystem::path
     PointValues result = read_point_values(std::move(reader));
     result.gradation = gradation;
     return result;
+}
+
+std::vector<std::string> vtu_fields(const std::string& bytes, const std::filesystem::path& file) {
+    const std::set<std::string> of_meshes{"region", "piece", "layer", "marker", "quality", "wall_distance"};
+    const VtkXmlFile xml(bytes, file.string());
+    std::vector<std::string> fields;
+    std::set<std::string> at_points;
+    for (const std::string section : {"PointData", "CellData"})
+        for (const std::string& name : xml.arrays(section)) {
+            // Those of the points come first, and hide those of the cells.
+            if (of_meshes.contains(name) || !at_points.insert(name).second) continue;
+            const std::size_t components = xml.components(section + "/" + name);
+            if (components == 1) fields.push_back(name);
+            if (components == 2 || components == 3)
+                for (std::size_t i = 0; i < components; ++i) fields.push_back(name + ":" + "xyz"[i]);
+        }
+    return fields;
 }
 
 Solution read_vtu_solution(const std::string& bytes, const std::filesystem::path& file,

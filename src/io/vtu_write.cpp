@@ -74,10 +74,10 @@ struct VtuCells {
 };
 
 /// Adds the point data.
-using AddPointData = std::function<void(VtuWriter&)>;
+using AddData = std::function<void(VtuWriter&)>;
 
 /// Returns what adds numbers at the points; nothing where there are none.
-AddPointData point_data(const char* name, const std::vector<double>& values) {
+AddData point_data(const char* name, const std::vector<double>& values) {
     return [name, &values](VtuWriter& vtu) {
         if (values.empty()) return;
         vtu.xml += "      <PointData>\n";
@@ -86,7 +86,7 @@ AddPointData point_data(const char* name, const std::vector<double>& values) {
     };
 }
 
-void add_cell_data(const MeshView& mesh, const VtuCells& cells, VtuWriter& vtu) {
+void add_cell_data(const MeshView& mesh, const VtuCells& cells, const AddData& add_more, VtuWriter& vtu) {
     const auto put = [&]<class T>(const char* name, const auto& values, T value_on_lines) {
         if (values.empty()) return;
         vtu.add_array<T>(name, cells.count(), 1, [&values, value_on_lines](std::size_t i) {
@@ -101,6 +101,7 @@ void add_cell_data(const MeshView& mesh, const VtuCells& cells, VtuWriter& vtu) 
         return i < cells.inner() ? 0 : cells.lines[i - cells.inner()].marker;
     });
     vtu.add_array<float>("quality", cells.count(), 1, [&cells](std::size_t i) { return cells.quality(i); });
+    if (add_more) add_more(vtu);
     vtu.xml += "      </CellData>\n";
 }
 
@@ -122,8 +123,8 @@ void add_cells(const VtuCells& cells, VtuWriter& vtu) {
     vtu.xml += "      </Cells>\n";
 }
 
-void write_grid(const MeshView& mesh, const AddPointData& add_point_data, bool compressed,
-                std::optional<double> size_gradation, std::ostream& out) {
+void write_grid(const MeshView& mesh, const AddData& add_point_data, bool compressed,
+                std::optional<double> size_gradation, std::ostream& out, const AddData& add_to_cells = {}) {
     const VtuCells cells(mesh);
     VtuWriter vtu(compressed);
     vtu.xml = vtu_head(compressed);
@@ -131,7 +132,7 @@ void write_grid(const MeshView& mesh, const AddPointData& add_point_data, bool c
     vtu.xml +=
         fmt::format("    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", mesh.points.size(), cells.count());
     add_point_data(vtu);
-    add_cell_data(mesh, cells, vtu);
+    add_cell_data(mesh, cells, add_to_cells, vtu);
     add_points(mesh, vtu);
     add_cells(cells, vtu);
     vtu.xml += "    </Piece>\n  </UnstructuredGrid>\n";
@@ -184,6 +185,36 @@ void write_vtu_part(const MeshView& part, std::span<const VertexId> vertices, st
         vtu.xml += "      </PointData>\n";
     };
     write_grid(part, add_ids, false, {}, out);
+}
+
+void write_vtu_solution(const Solution& solution, std::ostream& out) {
+    const std::vector<SolutionField>& fields = solution.fields;
+    const std::size_t cells = VtuCells(solution.mesh).count();
+    const auto add = [&](bool at_cells, VtuWriter& vtu) {
+        for (std::size_t f = 0; f < fields.size();) {
+            const auto axis = [&](std::size_t i, char name) {
+                return i < fields.size() && fields[i].at_cells == at_cells && fields[i].name.size() > 2 &&
+                       fields[i].name.ends_with(std::string(":") + name) &&
+                       fields[i].name.substr(0, fields[i].name.size() - 2) ==
+                           fields[f].name.substr(0, fields[f].name.size() - 2);
+            };
+            const std::size_t n = !axis(f, 'x') || !axis(f + 1, 'y') ? 1 : axis(f + 2, 'z') ? 3 : 2;
+            const SolutionField& field = fields[f];
+            if (field.at_cells == at_cells)
+                vtu.add_array<double>((n == 1 ? field.name : field.name.substr(0, field.name.size() - 2)).c_str(),
+                                      at_cells ? cells : field.values.size(), n, [&fields, f, n](std::size_t i) {
+                                          const std::vector<double>& values = fields[f + i % n].values;
+                                          return i / n < values.size() ? values[i / n] : 0;  // on lines
+                                      });
+            f += n;
+        }
+    };
+    const auto at_points = [&](VtuWriter& vtu) {
+        vtu.xml += "      <PointData>\n";
+        add(false, vtu);
+        vtu.xml += "      </PointData>\n";
+    };
+    write_grid(solution.mesh, at_points, true, {}, out, [&](VtuWriter& vtu) { add(true, vtu); });
 }
 
 void write_vtu_sizes(const SizedMesh& sizes, std::ostream& out) {

@@ -1,6 +1,7 @@
 // Solutions in VTU files and OpenFOAM cases, and files of sizes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -223,6 +224,33 @@ TEST(Solution, PointDataAndCellDataOfVtuFiles) {
     write_mesh(annulus({}), folder / "other.su2");
     EXPECT_THROW(read_solution(folder / "s.vtu", {"p"}, folder / "other.su2"), InputError);
     EXPECT_THROW(read_solution(folder / "other.su2", {"p"}), UsageError);
+}
+
+TEST(Solution, IsReadBackAsWritten) {
+    const TemporaryFolder folder;
+    Solution solution{annulus({.quads_in_layer = true}), {}};
+    const std::size_t points = solution.mesh.points.size(),
+                      cells = solution.mesh.triangles.size() + solution.mesh.quads.size();
+    for (const char* name : {"p", "U:x", "U:y", "V:x", "V:y", "V:z"}) {
+        solution.fields.push_back({name, false, std::vector<double>(points, double(solution.fields.size()))});
+        solution.fields.back().values[7] = -1.0 / 3;
+    }
+    solution.fields.push_back({"c", true, std::vector<double>(cells, 2.5)});
+    write_solution(solution, folder / "solution.vtu");
+    const std::vector<std::string> names = solution_fields(folder / "solution.vtu");
+    EXPECT_EQ(names, (std::vector<std::string>{"U:x", "U:y", "V:x", "V:y", "V:z", "p", "c"}));
+    const Solution read = read_solution(folder / "solution.vtu", names);
+    EXPECT_EQ(read.mesh.markers.size(), solution.mesh.markers.size());
+    for (const SolutionField& field : read.fields) {
+        const auto same = std::find_if(solution.fields.begin(), solution.fields.end(),
+                                       [&](const SolutionField& other) { return other.name == field.name; });
+        EXPECT_EQ(field.at_cells, same->at_cells);
+        EXPECT_EQ(field.values, same->values) << field.name;
+    }
+    Mesh moved = solution.mesh;
+    std::reverse(moved.points.begin(), moved.points.end());
+    write_mesh(moved, folder / "moved.vtu");
+    EXPECT_THROW(read_solution(folder / "solution.vtu", {"p"}, folder / "moved.vtu"), InputError);
 }
 
 TEST(Solution, SizesAreReadBackAsWritten) {

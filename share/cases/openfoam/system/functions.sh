@@ -13,9 +13,10 @@ require() {
 # run PROGRAM OPTION...: its output goes to log.PROGRAM
 run() { "$@" >"log.$1" 2>&1 || fail "$1 failed: see log.$1"; }
 
-# prepare_mesh: numbers the cells so that neighbours are near each other, and checks them.
+# prepare_mesh: numbers the cells so that neighbours are near each other, with the fields in 0/ where these differ from cell
+# to cell, and checks them.
 prepare_mesh() {
-    run renumberMesh -overwrite -constant
+    if [ -e system/start ]; then run renumberMesh -overwrite; else run renumberMesh -overwrite -constant; fi
     checkMesh -constant >log.checkMesh 2>&1 # its remarks stop nothing
     echo "numberOfSubdomains $processes;" >system/processes
 }

@@ -1,0 +1,327 @@
+#include "app/adapt_run.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <lamina/error.hpp>
+#include <lamina/files.hpp>
+#include <lamina/io.hpp>
+
+#include "app/fingerprint.hpp"
+#include "app/mesh_command_options.hpp"
+#include "app/progress.hpp"
+#include "app/report.hpp"
+#include "app/standard_output.hpp"
+#include "app/stopwatch.hpp"
+
+namespace lamina::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A round that is complete.
+struct Round {
+    std::size_t vertices = 0, cells = 0;
+    SolvedForces forces;
+    double seconds = 0;
+};
+
+/// Keeps other processes from the folder of the rounds.
+class FolderLock {
+public:
+    explicit FolderLock(const fs::path& folder) : file_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+        if (file_ >= 0 && ::flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+            ::close(file_);
+            throw UsageError(folder.string() + ": another process works on these rounds");
+        }
+    }
+    ~FolderLock() {
+        if (file_ >= 0) ::close(file_);
+    }
+    FolderLock(const FolderLock&) = delete;
+    FolderLock& operator=(const FolderLock&) = delete;
+
+private:
+    int file_;
+};
+
+constexpr const char* marker_name = "round.json";
+
+Json json_of(const Round& round, const std::string& digits) {
+    Json json{{"fingerprint", digits}, {"vertices", round.vertices}, {"cells", round.cells},
+              {"CL", round.forces.cl}, {"CD", round.forces.cd},      {"steady", round.forces.steady},
+              {"iterations", Json()},  {"log10_residual", Json()},   {"seconds", round.seconds}};
+    if (round.forces.iterations) json["iterations"] = *round.forces.iterations;
+    if (round.forces.residual) json["log10_residual"] = *round.forces.residual;
+    return json;
+}
+
+/// Returns the round that a folder holds; nothing where it was not finished. Throws UsageError where it is of other options.
+std::optional<Round> read_round(const fs::path& folder, const std::string& digits) {
+    std::error_code ignored;
+    if (!fs::exists(folder, ignored)) return {};
+    const auto refuse = [&](const char* reason) {
+        throw UsageError(fmt::format("{}: {}: give another folder, or remove it", folder.string(), reason));
+    };
+    const fs::path file = folder / marker_name;
+    if (!fs::exists(file, ignored)) refuse("exists, and is no round of this command");
+    const Json json = Json::parse(read_file(file), nullptr, false);
+    Round round;
+    try {
+        if (json.at("fingerprint") != digits) refuse("was made with other options or inputs");
+        round.vertices = json.at("vertices");
+        round.cells = json.at("cells");
+        round.forces.cl = json.at("CL");
+        round.forces.cd = json.at("CD");
+        round.forces.steady = json.at("steady");
+        if (!json.at("iterations").is_null()) round.forces.iterations = json.at("iterations").get<std::size_t>();
+        if (!json.at("log10_residual").is_null()) round.forces.residual = json.at("log10_residual").get<double>();
+        round.seconds = json.at("seconds");
+    } catch (const Json::exception&) {
+        throw InputError({file.string(), 0, {}}, "is no record of a round");
+    }
+    return round;
+}
+
+std::string optional_text(const auto& value, const char* none = "") { return value ? fmt::format("{}", *value) : none; }
+
+std::string table_of(const std::vector<Round>& rounds) {
+    std::string text = "round,vertices,cells,iterations,steady,CL,CD,log10_residual,seconds\n";
+    for (std::size_t i = 0; i < rounds.size(); ++i) {
+        const auto& [vertices, cells, forces, seconds] = rounds[i];
+        text +=
+            fmt::format("{},{},{},{},{},{},{},{},{:.1f}\n", i, vertices, cells, optional_text(forces.iterations),
+                        forces.steady ? "yes" : "no", forces.cl, forces.cd, optional_text(forces.residual), seconds);
+    }
+    return text;
+}
+
+constexpr const char* row_heads = "round   vertices  iterations          CL          CD  residual\n";
+
+std::string row_of(std::size_t number, const Round& round, bool kept) {
+    const SolvedForces& forces = round.forces;
+    return fmt::format("{:5} {:10} {:>11} {:11.6f} {:11.7f} {:>9}{}{}\n", number, round.vertices,
+                       optional_text(forces.iterations, "-"), forces.cl, forces.cd,
+                       forces.residual ? fmt::format("{:.2f}", *forces.residual) : "-",
+                       forces.steady ? "" : "  not steady", kept ? "  done before" : "");
+}
+
+/// Makes meshes that have the numbers of vertices asked for.
+class AdaptMesher {
+public:
+    explicit AdaptMesher(const MeshCase& mesh_case)
+        : base_(options_with_files(mesh_case)),
+          geometry_(read_geometry(mesh_case.inputs, mesh_case.options.geometry)),
+          conditions_(reference_conditions(base_.conditions, reference_box(geometry_))),
+          options_(base_) {}
+
+    /// Changes wall spacings and sizes alone, so that the mesh without a solution has so many vertices: its layers keep
+    /// their heights.
+    void aim_at(double vertices) {
+        if (vertices == aim_) return;
+        constexpr double good_enough = 0.03;
+        constexpr int most_trials = 8;
+        double low = 0, high = 0, low_miss = 0, high_miss = 0, best = HUGE_VAL, ratio = 1;
+        std::size_t nearest = 0;
+        for (int trial = 0; trial < most_trials && best > good_enough; ++trial) {
+            const CaseOptions options = at_ratio(ratio);
+            const std::size_t made = generate_mesh(geometry_, options).mesh.points.size();
+            const double miss = std::log(static_cast<double>(made) / vertices);
+            if (std::abs(miss) < best) {
+                best = std::abs(miss);
+                nearest = made;
+                options_ = options;
+            }
+            (miss < 0 ? low : high) = ratio;
+            (miss < 0 ? low_miss : high_miss) = miss;
+            // Between walls that are divided alone, and an area.
+            constexpr double usual_power = 1.4;
+            ratio = low > 0 && high > 0
+                        ? low * std::pow(high / low, std::clamp(low_miss / (low_miss - high_miss), 0.1, 0.9))
+                        : ratio * std::exp(-miss / usual_power);
+        }
+        constexpr double acceptable = 0.05;
+        if (best > acceptable)
+            throw OptionError("vertices", fmt::format("cannot be {:.0f}: the nearest mesh of these layers has {}",
+                                                      vertices, nearest));
+        aim_ = vertices;
+    }
+    /// Returns the growth of sizes that the number of vertices leads to.
+    double gradation() const { return options_.sizing.gradation; }
+    MeshResult make(const std::shared_ptr<const SizedMesh>& sizes) const {
+        CaseOptions options = options_;
+        options.sizing.background = sizes;
+        return generate_mesh(geometry_, options);
+    }
+
+private:
+    CaseOptions at_ratio(double ratio) const {
+        CaseOptions options = refined(base_, ratio, conditions_);
+        options.layer = base_.layer;
+        options.far_field = base_.far_field;
+        return options;
+    }
+
+    CaseOptions base_;
+    Geometry geometry_;
+    ReferenceConditions conditions_;
+    CaseOptions options_;
+    double aim_ = 0;
+};
+
+class AdaptLoop {
+public:
+    AdaptLoop(const AdaptSettings& settings, const MeshCase& mesh_case, const AdaptSolver& solver, SignalGuard& guard)
+        : settings_(settings), case_(mesh_case), solver_(solver), guard_(guard), digits_(digits_of_rounds()) {}
+
+    void run() {
+        if (!case_.quiet) print_result(row_heads);
+        for (std::size_t i = 0; i < digits_.size() && !has_settled(); ++i) {
+            const std::optional<Round> before = read_round(folder_of(i), digits_[i]);
+            rounds_.push_back(before ? *before : make_round(i));
+            if (!case_.quiet) print_result(row_of(i, rounds_.back(), before.has_value()));
+            write_file(settings_.folder / "adapt.csv", table_of(rounds_));
+        }
+        if (case_.quiet) return;
+        print_result(has_settled()
+                         ? fmt::format("forces have changed by less than {} % in two rounds: {}\n",
+                                       100 * settings_.tolerance, (settings_.folder / "adapt.csv").string())
+                         : fmt::format("all rounds are done: {}\n", (settings_.folder / "adapt.csv").string()));
+    }
+    void tell_plan() const {
+        std::string text = fmt::format("would run {} in the folder of each round\n", solver_.command());
+        for (std::size_t i = 0; i < digits_.size(); ++i)
+            text += fmt::format("  {}: {}{}\n", folder_of(i).string(), vertices_text(i),
+                                read_round(folder_of(i), digits_[i]) ? ", done before" : "");
+        print_result(text);
+    }
+
+private:
+    double wanted_vertices(std::size_t round) const {
+        const std::vector<double>& all = settings_.vertices;
+        return all.empty() ? 0 : all[std::min(round, all.size() - 1)];
+    }
+    std::string vertices_text(std::size_t round) const {
+        const double wanted = wanted_vertices(round);
+        return wanted > 0 ? fmt::format("{:.0f} vertices", wanted) : "as many vertices as the options make";
+    }
+    fs::path folder_of(std::size_t round) const { return settings_.folder / fmt::format("round_{}", round); }
+
+    /// Returns for each round the digits of all that it depends on. Rounds may be added later, and the tolerance may change.
+    std::vector<std::string> digits_of_rounds() const {
+        std::string text = fingerprint(case_) + settings_.identity;
+        for (const std::string& field : settings_.fields) text += "\n" + field;
+        text += fmt::format("\n{} {}", settings_.sizes.gradation, settings_.sizes.max_change);
+        std::vector<std::string> digits;
+        for (int i = 0; i < settings_.rounds; ++i) {
+            text += fmt::format("\n{}", wanted_vertices(static_cast<std::size_t>(i)));
+            digits.push_back(text_of(hashed(no_text, text)));
+        }
+        return digits;
+    }
+
+    bool has_settled() const {
+        if (rounds_.size() < 3 || rounds_.size() < settings_.vertices.size()) return false;
+        const auto stays = [&](std::size_t i) {
+            const SolvedForces &now = rounds_[i].forces, &before = rounds_[i - 1].forces;
+            // Where there is hardly any lift, the drag says what a small change is.
+            return std::abs(now.cd - before.cd) < settings_.tolerance * std::abs(now.cd) &&
+                   std::abs(now.cl - before.cl) < settings_.tolerance * (std::abs(now.cl) + std::abs(now.cd));
+        };
+        return stays(rounds_.size() - 1) && stays(rounds_.size() - 2);
+    }
+
+    void say(const std::string& text) const {
+        if (!case_.quiet && case_.progress != ProgressShown::never)
+            std::fputs(fmt::format("lamina: {}\n", text).c_str(), stderr);
+    }
+
+    /// Makes a round in a folder of another name, which gets the name of the round in the end. What killed processes have
+    /// left of the round is removed.
+    Round make_round(std::size_t i) {
+        Stopwatch watch;
+        const std::string part = folder_of(i).filename().string() + ".part-";
+        std::vector<fs::path> left;
+        for (const fs::directory_entry& entry : fs::directory_iterator(settings_.folder))
+            if (entry.path().filename().string().starts_with(part)) left.push_back(entry.path());
+        for (const fs::path& old : left) fs::remove_all(old);
+        const fs::path folder = settings_.folder / (part + std::to_string(::getpid()));
+        fs::create_directories(folder);
+
+        if (!mesher_) mesher_.emplace(case_);
+        if (const double wanted = wanted_vertices(i); wanted > 0) mesher_->aim_at(wanted);
+        MeshResult result = i == 0 ? mesher_->make(nullptr) : adapted_mesh(i, folder);
+        print_warnings(result.warnings);
+        require_promised_angles(result.check, case_.allow_defects);
+        write_mesh(result.mesh, folder / "mesh.vtu");
+        solver_.write_case(result, case_, folder);
+        if (i > 0) solver_.start_from(folder_of(i - 1), rounds_[i - 1].forces, folder);
+
+        Round round;
+        round.vertices = result.mesh.points.size();
+        round.cells = result.mesh.triangles.size() + result.mesh.quads.size();
+        say(fmt::format("round {}: {} vertices, solving in {}", i, round.vertices, folder.string()));
+        round.forces = solver_.run(folder, guard_);
+        round.seconds = watch.lap();
+        write_file(folder / marker_name, to_text(json_of(round, digits_[i])));
+        fs::rename(folder, folder_of(i));
+        return round;
+    }
+    MeshResult adapted_mesh(std::size_t i, const fs::path& folder) const {
+        SolutionSizeOptions options = settings_.sizes;
+        options.vertices = wanted_vertices(i) > 0 ? wanted_vertices(i) : static_cast<double>(rounds_.front().vertices);
+        // A mesh with few vertices needs sizes that grow fast.
+        options.gradation = std::max(options.gradation, mesher_->gradation());
+        const std::vector<std::string> fields = settings_.fields.empty() ? solver_.usual_fields() : settings_.fields;
+        const SolutionSizes made =
+            solution_sizes(solver_.read(folder_of(i - 1), fields), options, [&](const SizedMesh& sizes) {
+                return mesher_->make(std::make_shared<const SizedMesh>(sizes)).mesh.points.size();
+            });
+        std::string errors;
+        for (std::size_t f = 0; f < fields.size(); ++f)
+            errors += fmt::format("{}{:.4g} in {}", f == 0 ? "" : ", ", made.errors[f], fields[f]);
+        say(fmt::format("round {}: error of the solution before, estimated beyond the layer: {}", i, errors));
+        write_sizes(made.sizes, folder / "sizes.vtu");
+        return mesher_->make(std::make_shared<const SizedMesh>(made.sizes));
+    }
+
+    const AdaptSettings& settings_;
+    const MeshCase& case_;
+    const AdaptSolver& solver_;
+    SignalGuard& guard_;
+    std::vector<std::string> digits_;
+    std::optional<AdaptMesher> mesher_;
+    std::vector<Round> rounds_;
+};
+
+}  // namespace
+
+void run_adapt(const AdaptSettings& settings, MeshCase mesh_case, AdaptSolver& solver) {
+    solver.prepare(mesh_case);
+    require_inputs(mesh_case);
+    solver.require_programs();
+    const std::vector<RunFile> outputs{{settings.folder / "adapt.csv", "option --output"}};
+    check_folder_writable(missing_folders(outputs.front().path).empty()
+                              ? outputs.front().path
+                              : missing_folders(outputs.front().path).front());
+    SignalGuard guard(outputs);
+    if (settings.dry_run) return AdaptLoop(settings, mesh_case, solver, guard).tell_plan();
+    create_folders_above(outputs.front().path);
+    const FolderLock lock(settings.folder);
+    AdaptLoop(settings, mesh_case, solver, guard).run();
+}
+
+}  // namespace lamina::app

@@ -1,0 +1,127 @@
+// lamina adapt: meshes, solves and meshes again, until the forces stay.
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <lamina/error.hpp>
+
+#include "app/adapt_run.hpp"
+#include "app/commands.hpp"
+#include "app/mesh_command_options.hpp"
+#include "app/options.hpp"
+#include "app/table_option.hpp"
+#include "core/option_builders.hpp"
+
+namespace lamina::app {
+
+namespace {
+
+struct AdaptArguments {
+    std::string solver, folder, goal = "fields", turbulence;
+    std::vector<double> sequence;
+    std::map<std::string, std::string> sizes;  ///< values by the names of option_table<SolutionSizeOptions>()
+    AdaptSettings settings;
+    GivenOptions mesh;
+};
+
+void require_goal(const std::string& goal) {
+    if (goal == "fields") return;
+    if (goal == "drag" || goal == "lift")
+        throw UsageError(fmt::format(
+            "option --goal: {0} needs an adjoint solution of the {0}, which no case of lamina computes and no "
+            "reader takes: leave --goal out, or give fields",
+            goal));
+    throw UsageError("option --goal: " + unknown_choice(goal, {"fields", "drag", "lift"}));
+}
+
+void adapt(const AdaptArguments& arguments) {
+    require_goal(arguments.goal);
+    AdaptSettings settings = arguments.settings;
+    settings.folder = arguments.folder;
+    require_in_range(numbers_from_to(1, 100), settings.rounds, "option --rounds");
+    require_in_range(positive_numbers, settings.tolerance, "option --tolerance");
+    for (const auto& [name, value] : arguments.sizes)
+        set_by_name(option_table<SolutionSizeOptions>(), name, value, settings.sizes);
+    validate(settings.sizes);
+    settings.vertices = arguments.sequence;
+    for (const double vertices : settings.vertices)
+        require_in_range(numbers_from_to(10, 4e9), vertices, "option --sequence");
+    if (!arguments.sizes.at("vertices").empty()) settings.vertices = {settings.sizes.vertices};
+    SolverCaseOptions options;
+    set_by_name(option_table<SolverCaseOptions>(), "turbulence", arguments.turbulence, options);
+    const MeshCase mesh_case = case_of_command_line(arguments.mesh);
+    if (mesh_case.inputs.empty()) throw UsageError("no INPUT: give airfoil files, naca:DIGITS or a case file");
+    if (is_given(mesh_case, "gradation")) settings.sizes.gradation = mesh_case.options.sizing.gradation;
+    settings.identity = fmt::format("\n{}\n{}", arguments.solver, arguments.turbulence);
+    options.compressible = mesh_case.options.conditions.mach.has_value();
+    MeshCase without_outputs = mesh_case;
+    without_outputs.outputs.clear();
+    for (const auto& [file, option] : files_beside_mesh) (without_outputs.*file).clear();
+    const std::unique_ptr<AdaptSolver> solver = adapt_solver(arguments.solver, options);
+    run_adapt(settings, without_outputs, *solver);
+}
+
+}  // namespace
+
+void add_adapt_command(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("adapt", "mesh, solve and mesh again by the solution, in one loop");
+    auto arguments = std::make_shared<AdaptArguments>();
+    AdaptSettings& settings = arguments->settings;
+    const std::string group = "Adaptation";
+    command
+        ->add_option("--solver", arguments->solver,
+                     "openfoam, su2, or a command, whose words blanks divide and quotes keep together. It runs in the "
+                     "folder of the round, without a shell, where mesh.vtu, mesh.su2, case.toml and, from round 1 on, "
+                     "start.vtu are, and leaves solution.vtu and forces.csv with the columns CL, CD and steady (and "
+                     "iterations, residual); {case} stands for the folder")
+        ->required()
+        ->type_name("openfoam|su2|COMMAND")
+        ->group(group);
+    command
+        ->add_option("-o,--output", arguments->folder,
+                     "folder of the rounds, round_0, round_1, ..., and of adapt.csv; rounds that are there are kept")
+        ->required()
+        ->type_name("FOLDER")
+        ->group(group);
+    command->add_option("--rounds", settings.rounds, "number of meshes at most [5]")->type_name("N")->group(group);
+    add_table_option(*command, option_table<SolutionSizeOptions>(), "vertices", arguments->sizes["vertices"])
+        ->group(group);
+    command
+        ->add_option("--sequence", arguments->sequence,
+                     "numbers of vertices of the first rounds; the last one is that of all further rounds")
+        ->delimiter(',')
+        ->type_name("N,...")
+        ->group(group)
+        ->excludes(command->get_option("--vertices"));
+    command
+        ->add_option("--tolerance", settings.tolerance,
+                     "the loop ends where lift and drag change by a smaller share in two rounds in a row [0.001]")
+        ->type_name("T")
+        ->group(group);
+    command
+        ->add_option(
+            "--goal", arguments->goal,
+            "what is to be found well; drag and lift need an adjoint solution, which no solver gives yet [fields]")
+        ->type_name("fields|drag|lift")
+        ->group(group);
+    command
+        ->add_option("--field", settings.fields,
+                     "fields to interpolate well, as in lamina sizes [openfoam: mag(U),p; else Mach,Pressure]")
+        ->delimiter(',')
+        ->type_name("NAME[,NAME...]")
+        ->group(group);
+    add_table_option(*command, option_table<SolutionSizeOptions>(), "max-change", arguments->sizes["max-change"])
+        ->group(group);
+    add_table_option(*command, option_table<SolverCaseOptions>(), "turbulence", arguments->turbulence)->group(group);
+    command->add_flag("--dry-run", settings.dry_run, "say what would be done, and do nothing")->group(group);
+    arguments->mesh =
+        add_mesh_options(*command, {"output", "format", "parts", "span", "span-cells", "span-ends", "wall-distance",
+                                    "background", "stream", "wall-data", "report", "html"});
+    command->callback([arguments] { adapt(*arguments); });
+}
+
+}  // namespace lamina::app
