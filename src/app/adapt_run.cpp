@@ -188,11 +188,12 @@ public:
         : settings_(settings), case_(mesh_case), solver_(solver), guard_(guard), digits_(digits_of_rounds()) {}
 
     void run() {
+        const std::vector<Round> before = rounds_before();
         if (!case_.quiet) print_result(row_heads);
         for (std::size_t i = 0; i < digits_.size() && !has_settled(); ++i) {
-            const std::optional<Round> before = read_round(folder_of(i), digits_[i]);
-            rounds_.push_back(before ? *before : make_round(i));
-            if (!case_.quiet) print_result(row_of(i, rounds_.back(), before.has_value()));
+            const bool kept = i < before.size();
+            rounds_.push_back(kept ? before[i] : make_round(i));
+            if (!case_.quiet) print_result(row_of(i, rounds_.back(), kept));
             write_file(settings_.folder / "adapt.csv", table_of(rounds_));
         }
         if (case_.quiet) return;
@@ -202,10 +203,11 @@ public:
                          : fmt::format("all rounds are done: {}\n", (settings_.folder / "adapt.csv").string()));
     }
     void tell_plan() const {
+        const std::size_t done = rounds_before().size();
         std::string text = fmt::format("would run {} in the folder of each round\n", solver_.command());
         for (std::size_t i = 0; i < digits_.size(); ++i)
-            text += fmt::format("  {}: {}{}\n", folder_of(i).string(), vertices_text(i),
-                                read_round(folder_of(i), digits_[i]) ? ", done before" : "");
+            text +=
+                fmt::format("  {}: {}{}\n", folder_of(i).string(), vertices_text(i), i < done ? ", done before" : "");
         print_result(text);
     }
 
@@ -217,6 +219,17 @@ private:
     std::string vertices_text(std::size_t round) const {
         const double wanted = wanted_vertices(round);
         return wanted > 0 ? fmt::format("{:.0f} vertices", wanted) : "as many vertices as the options make";
+    }
+    /// Returns the rounds that are complete already. Throws UsageError where they are not of these options.
+    std::vector<Round> rounds_before() const {
+        std::vector<Round> before;
+        for (std::size_t i = 0; i < digits_.size(); ++i) {
+            const std::optional<Round> round = read_round(folder_of(i), digits_[i]);
+            if (round && before.size() < i)
+                throw UsageError(fmt::format("{}: a round before it is missing: remove it", folder_of(i).string()));
+            if (round) before.push_back(*round);
+        }
+        return before;
     }
     fs::path folder_of(std::size_t round) const { return settings_.folder / fmt::format("round_{}", round); }
 

@@ -1,0 +1,142 @@
+// lamina adapt: rounds, restarts of the loop, and solvers that fail. A script stands in for the solver.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <lamina/io.hpp>
+#include <lamina/solution.hpp>
+
+#include "app/program.hpp"
+
+namespace lamina::test {
+namespace {
+
+/// A script that counts its calls, solves by tests/documentation/solution.py, and then runs these lines.
+std::string script(const std::string& more) {
+    return "#!/bin/sh\necho call >>\"$1/../../calls\"\npython3 " LAMINA_SOLUTION_SCRIPT
+           " mesh.su2 solution.vtu || exit 9\nprintf 'CL,CD,steady,iterations\\n1.25,0.0125,yes,40\\n' >forces.csv\n" +
+           more;
+}
+
+std::vector<std::string> adapt(const std::vector<std::string>& more = {},
+                               const std::string& solver = "sh '../../so lve.sh' {case}") {
+    std::vector<std::string> arguments{"adapt", "naca:0012", "--far-field", "10",   "--solver", solver,
+                                       "-o",    "loop",      "--vertices",  "7000", "--rounds", "2"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+}
+
+std::size_t calls(const TemporaryFolder& folder) { return lines_of(folder.read("calls")).size(); }
+
+TEST(AdaptCommand, ClosesTheLoopAndGoesOnWhereItWas) {
+    const TemporaryFolder folder;
+    folder.write("so lve.sh", script(""));
+    const ProgramRun first = run_lamina(folder, adapt());
+    ASSERT_EQ(first.exit_code, 0) << first.err;
+    EXPECT_EQ(calls(folder), 2u);
+    for (const char* round : {"loop/round_0/", "loop/round_1/"}) {
+        const Mesh mesh = read_mesh(folder / (round + std::string("mesh.vtu")));
+        EXPECT_NEAR(double(mesh.points.size()), 7000, 0.05 * 7000) << round;
+    }
+    const Solution start = read_solution(folder / "loop/round_1/start.vtu", {"Mach", "mag(U)"});
+    EXPECT_EQ(start.mesh.points.size(), start.fields[0].values.size());
+    EXPECT_GT(*std::max_element(start.fields[0].values.begin(), start.fields[0].values.end()), 0.14);
+    EXPECT_FALSE(std::filesystem::exists(folder / "loop/round_0/start.vtu"));
+    const std::vector<std::string> table = lines_of(folder.read("loop/adapt.csv"));
+    ASSERT_EQ(table.size(), 3u);
+    EXPECT_NE(table[1].find(",40,yes,1.25,0.0125,"), std::string::npos) << table[1];
+
+    // The same command has nothing to do; with more rounds it goes on, until the forces stay.
+    const ProgramRun again = run_lamina(folder, adapt());
+    ASSERT_EQ(again.exit_code, 0) << again.err;
+    EXPECT_EQ(calls(folder), 2u);
+    std::vector<std::string> more = adapt();
+    more.back() = "9";
+    ASSERT_EQ(run_lamina(folder, more).exit_code, 0);
+    EXPECT_EQ(calls(folder), 3u);
+    EXPECT_EQ(lines_of(folder.read("loop/adapt.csv")).size(), 4u);
+
+    expect_refused(folder, adapt({"--gradation", "0.15"}), usage, "round_0: was made with other options");
+    std::filesystem::rename(folder / "loop/round_0", folder / "elsewhere");
+    expect_refused(folder, adapt(), usage, "a round before it is missing");
+    std::filesystem::rename(folder / "elsewhere", folder / "loop/round_0");
+    folder.write("loop/round_0/round.json", "{}");
+    EXPECT_EQ(run_lamina(folder, adapt()).exit_code, bad_input);
+}
+
+TEST(AdaptCommand, AFailedRoundLeavesThoseBefore) {
+    const TemporaryFolder folder;
+    folder.write("so lve.sh", script("test ! -e start.vtu || exit 7\n"));
+    const ProgramRun failed = run_lamina(folder, adapt());
+    EXPECT_EQ(failed.exit_code, io_failed);
+    EXPECT_NE(failed.err.find("the solver ended with exit code 7"), std::string::npos) << failed.err;
+    EXPECT_TRUE(std::filesystem::exists(folder / "loop/round_0/round.json"));
+    EXPECT_EQ(lines_of(folder.read("loop/adapt.csv")).size(), 2u);
+    const auto fails = [&](const std::string& last, const std::string& said) {
+        folder.write("so lve.sh", script(last));
+        const ProgramRun run = run_lamina(folder, adapt());
+        EXPECT_EQ(run.exit_code, io_failed) << run.err;
+        EXPECT_NE(run.err.find(said), std::string::npos) << run.err;
+        EXPECT_FALSE(std::filesystem::exists(folder / "loop/round_1"));
+    };
+    fails("rm forces.csv\n", "has not left this file");
+    fails("rm solution.vtu\n", "has not left this file");
+    fails("printf 'CL,CD,steady\\nnan,0.01,yes\\n' >forces.csv\n", "has diverged");
+    folder.write("so lve.sh", script(""));
+    EXPECT_EQ(run_lamina(folder, adapt()).exit_code, 0);
+    EXPECT_TRUE(std::filesystem::exists(folder / "loop/round_1/round.json"));
+    for (const std::string& name : folder.names()) EXPECT_EQ(name.find(".part-"), std::string::npos) << name;
+}
+
+TEST(AdaptCommand, RefusesSolutionsThatItCannotUse) {
+    const TemporaryFolder folder;
+    folder.write("so lve.sh", script("sed -i 's/Mach/Much/' solution.vtu\n"));
+    const ProgramRun renamed = run_lamina(folder, adapt());
+    EXPECT_EQ(renamed.exit_code, usage);
+    EXPECT_NE(renamed.err.find("no array 'Mach'"), std::string::npos) << renamed.err;
+    std::filesystem::remove_all(folder / "loop");
+    folder.write("so lve.sh", script("test -e start.vtu || sed -i '0,/^0\\.1[0-9]*$/s//nan/' solution.vtu\n"));
+    const ProgramRun diverged = run_lamina(folder, adapt());
+    EXPECT_EQ(diverged.exit_code, usage);
+    EXPECT_NE(diverged.err.find("is not a finite number"), std::string::npos) << diverged.err;
+}
+
+TEST(AdaptCommand, ASignalEndsTheSolverAndTheLoopGoesOn) {
+    const TemporaryFolder folder;
+    folder.write("so lve.sh", script("test -e ../../quick || { echo $$ >../../pid; sleep 100; }\n"));
+    const auto waits = [&] { return std::filesystem::exists(folder / "pid") && !folder.read("pid").empty(); };
+    EXPECT_EQ(interrupt_lamina(folder, adapt(), SIGTERM, waits), SIGTERM);
+    const int solver = std::stoi(folder.read("pid"));
+    for (int i = 0; i < 500 && kill(solver, 0) == 0; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    EXPECT_NE(kill(solver, 0), 0);
+    EXPECT_FALSE(std::filesystem::exists(folder / "loop/round_0"));
+    folder.write("quick", "");
+    EXPECT_EQ(run_lamina(folder, adapt()).exit_code, 0);
+    EXPECT_TRUE(std::filesystem::exists(folder / "loop/round_1/round.json"));
+}
+
+TEST(AdaptCommand, SaysWhatIsMissingBeforeTheFirstMesh) {
+    const TemporaryFolder folder;
+    folder.write("so lve.sh", script(""));
+    expect_refused(folder, adapt({}, "no_such_solver {case}"), usage, "no_such_solver is not in PATH");
+    expect_refused(folder, adapt({}, "'./so lve.sh'"), usage, "./so lve.sh cannot be run");
+    expect_refused(folder, adapt({}, "sh 'solve.sh"), usage, "the quote ' does not end");
+    expect_refused(folder, adapt({}, " "), usage, "is empty");
+    expect_refused(folder, adapt({"--goal", "drag"}), usage, "needs an adjoint solution of the drag");
+    expect_refused(folder, adapt({"--goal", "drags"}), usage, "drags");
+    expect_refused(folder, adapt({"--tolerance", "0"}), usage, "tolerance");
+    const std::vector<std::string> before = folder.names();
+    const ProgramRun plan = run_lamina(folder, adapt({"--dry-run"}));
+    EXPECT_EQ(plan.exit_code, 0) << plan.err;
+    EXPECT_NE(plan.out.find("loop/round_1: 7000 vertices"), std::string::npos) << plan.out;
+    EXPECT_EQ(folder.names(), before);
+}
+
+}  // namespace
+}  // namespace lamina::test
