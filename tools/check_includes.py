@@ -43,6 +43,7 @@ OWNERS["transformation"] = "geometry"
 OWNERS["compressible_flow"] = "flow"
 OWNERS["solution"] = "io"
 OWNERS["solution_sizes"] = "adaptation"
+OWNERS["transfer"] = "adaptation"
 OWNERS["triangle_files"] = "io"
 for name in "delaunay_connectivity delaunay_input delaunay_queries dynamic_triangulation triangulation voronoi".split():
     OWNERS[name] = "delaunay"

@@ -18,7 +18,9 @@
 #include <lamina/error.hpp>
 #include <lamina/files.hpp>
 #include <lamina/io.hpp>
+#include <lamina/page.hpp>
 
+#include "app/adapt_page.hpp"
 #include "app/fingerprint.hpp"
 #include "app/mesh_command_options.hpp"
 #include "app/progress.hpp"
@@ -31,13 +33,6 @@ namespace lamina::app {
 namespace fs = std::filesystem;
 
 namespace {
-
-/// A round that is complete.
-struct Round {
-    std::size_t vertices = 0, cells = 0;
-    SolvedForces forces;
-    double seconds = 0;
-};
 
 /// Keeps other processes from the folder of the rounds.
 class FolderLock {
@@ -60,7 +55,7 @@ private:
 
 constexpr const char* marker_name = "round.json";
 
-Json json_of(const Round& round, const std::string& digits) {
+Json json_of(const AdaptRound& round, const std::string& digits) {
     Json json{{"fingerprint", digits}, {"vertices", round.vertices}, {"cells", round.cells},
               {"CL", round.forces.cl}, {"CD", round.forces.cd},      {"steady", round.forces.steady},
               {"iterations", Json()},  {"log10_residual", Json()},   {"seconds", round.seconds}};
@@ -70,7 +65,7 @@ Json json_of(const Round& round, const std::string& digits) {
 }
 
 /// Returns the round that a folder holds; nothing where it was not finished. Throws UsageError where it is of other options.
-std::optional<Round> read_round(const fs::path& folder, const std::string& digits) {
+std::optional<AdaptRound> read_round(const fs::path& folder, const std::string& digits) {
     std::error_code ignored;
     if (!fs::exists(folder, ignored)) return {};
     const auto refuse = [&](const char* reason) {
@@ -79,7 +74,7 @@ std::optional<Round> read_round(const fs::path& folder, const std::string& digit
     const fs::path file = folder / marker_name;
     if (!fs::exists(file, ignored)) refuse("exists, and is no round of this command");
     const Json json = Json::parse(read_file(file), nullptr, false);
-    Round round;
+    AdaptRound round;
     try {
         if (json.at("fingerprint") != digits) refuse("was made with other options or inputs");
         round.vertices = json.at("vertices");
@@ -98,7 +93,7 @@ std::optional<Round> read_round(const fs::path& folder, const std::string& digit
 
 std::string optional_text(const auto& value, const char* none = "") { return value ? fmt::format("{}", *value) : none; }
 
-std::string table_of(const std::vector<Round>& rounds) {
+std::string table_of(const std::vector<AdaptRound>& rounds) {
     std::string text = "round,vertices,cells,iterations,steady,CL,CD,log10_residual,seconds\n";
     for (std::size_t i = 0; i < rounds.size(); ++i) {
         const auto& [vertices, cells, forces, seconds] = rounds[i];
@@ -111,7 +106,7 @@ std::string table_of(const std::vector<Round>& rounds) {
 
 constexpr const char* row_heads = "round   vertices  iterations          CL          CD  residual\n";
 
-std::string row_of(std::size_t number, const Round& round, bool kept) {
+std::string row_of(std::size_t number, const AdaptRound& round, bool kept) {
     const SolvedForces& forces = round.forces;
     return fmt::format("{:5} {:10} {:>11} {:11.6f} {:11.7f} {:>9}{}{}\n", number, round.vertices,
                        optional_text(forces.iterations, "-"), forces.cl, forces.cd,
@@ -188,13 +183,14 @@ public:
         : settings_(settings), case_(mesh_case), solver_(solver), guard_(guard), digits_(digits_of_rounds()) {}
 
     void run() {
-        const std::vector<Round> before = rounds_before();
+        const std::vector<AdaptRound> before = rounds_before();
         if (!case_.quiet) print_result(row_heads);
         for (std::size_t i = 0; i < digits_.size() && !has_settled(); ++i) {
             const bool kept = i < before.size();
             rounds_.push_back(kept ? before[i] : make_round(i));
             if (!case_.quiet) print_result(row_of(i, rounds_.back(), kept));
             write_file(settings_.folder / "adapt.csv", table_of(rounds_));
+            write_file(settings_.folder / "adapt.html", adapt_page(title(), rounds_));
         }
         if (case_.quiet) return;
         print_result(has_settled()
@@ -212,6 +208,7 @@ public:
     }
 
 private:
+    std::string title() const { return fmt::format("{}", fmt::join(case_.inputs, ", ")); }
     double wanted_vertices(std::size_t round) const {
         const std::vector<double>& all = settings_.vertices;
         return all.empty() ? 0 : all[std::min(round, all.size() - 1)];
@@ -221,10 +218,10 @@ private:
         return wanted > 0 ? fmt::format("{:.0f} vertices", wanted) : "as many vertices as the options make";
     }
     /// Returns the rounds that are complete already. Throws UsageError where they are not of these options.
-    std::vector<Round> rounds_before() const {
-        std::vector<Round> before;
+    std::vector<AdaptRound> rounds_before() const {
+        std::vector<AdaptRound> before;
         for (std::size_t i = 0; i < digits_.size(); ++i) {
-            const std::optional<Round> round = read_round(folder_of(i), digits_[i]);
+            const std::optional<AdaptRound> round = read_round(folder_of(i), digits_[i]);
             if (round && before.size() < i)
                 throw UsageError(fmt::format("{}: a round before it is missing: remove it", folder_of(i).string()));
             if (round) before.push_back(*round);
@@ -264,7 +261,7 @@ private:
 
     /// Makes a round in a folder of another name, which gets the name of the round in the end. What killed processes have
     /// left of the round is removed.
-    Round make_round(std::size_t i) {
+    AdaptRound make_round(std::size_t i) {
         Stopwatch watch;
         const std::string part = folder_of(i).filename().string() + ".part-";
         std::vector<fs::path> left;
@@ -280,10 +277,11 @@ private:
         print_warnings(result.warnings);
         require_promised_angles(result.check, case_.allow_defects);
         write_mesh(result.mesh, folder / "mesh.vtu");
+        write_page(result.mesh, folder / "mesh.html", {.title = fmt::format("{}, round {}", title(), i)});
         solver_.write_case(result, case_, folder);
         if (i > 0) solver_.start_from(folder_of(i - 1), rounds_[i - 1].forces, folder);
 
-        Round round;
+        AdaptRound round;
         round.vertices = result.mesh.points.size();
         round.cells = result.mesh.triangles.size() + result.mesh.quads.size();
         say(fmt::format("round {}: {} vertices, solving in {}", i, round.vertices, folder.string()));
@@ -317,7 +315,7 @@ private:
     SignalGuard& guard_;
     std::vector<std::string> digits_;
     std::optional<AdaptMesher> mesher_;
-    std::vector<Round> rounds_;
+    std::vector<AdaptRound> rounds_;
 };
 
 }  // namespace

@@ -83,7 +83,8 @@ void add_adapt_command(CLI::App& app) {
         ->group(group);
     command
         ->add_option("-o,--output", arguments->folder,
-                     "folder of the rounds, round_0, round_1, ..., and of adapt.csv; rounds that are there are kept")
+                     "folder of the rounds, round_0, round_1, ..., and of adapt.csv and adapt.html; rounds that are "
+                     "there are kept")
         ->required()
         ->type_name("FOLDER")
         ->group(group);

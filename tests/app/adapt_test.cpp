@@ -48,6 +48,9 @@ TEST(AdaptCommand, ClosesTheLoopAndGoesOnWhereItWas) {
     EXPECT_EQ(start.mesh.points.size(), start.fields[0].values.size());
     EXPECT_GT(*std::max_element(start.fields[0].values.begin(), start.fields[0].values.end()), 0.14);
     EXPECT_FALSE(std::filesystem::exists(folder / "loop/round_0/start.vtu"));
+    const std::string page = folder.read("loop/adapt.html");
+    EXPECT_NE(page.find("round_1/mesh.html"), std::string::npos);
+    EXPECT_TRUE(std::filesystem::exists(folder / "loop/round_1/mesh.html"));
     const std::vector<std::string> table = lines_of(folder.read("loop/adapt.csv"));
     ASSERT_EQ(table.size(), 3u);
     EXPECT_NE(table[1].find(",40,yes,1.25,0.0125,"), std::string::npos) << table[1];
