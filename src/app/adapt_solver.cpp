@@ -165,7 +165,7 @@ public:
         write_file(folder / "case.toml", dump_case(mesh_case));
     }
     void start_from(const fs::path& solved, const SolvedForces&, const fs::path& folder) const override {
-        const fs::path file = solved / solution_name;
+        const fs::path file = solution_in(solved);
         const Solution solution = read_solution(file, solution_fields(file), solved / "mesh.vtu");
         Solution start{read_mesh(folder / "mesh.vtu"), {}};
         start.fields = transfer(solution, start.mesh);
@@ -181,7 +181,7 @@ public:
         const fs::path log = folder / log_name, file = folder / "forces.csv";
         const int code = run_program_in(folder, words, log, guard);
         if (code != 0) throw IoError(log.string(), fmt::format("the solver ended with exit code {}", code));
-        for (const fs::path& needed : {file, folder / solution_name})
+        for (const fs::path& needed : {file, solution_in(folder)})
             if (!fs::exists(needed)) throw IoError(needed.string(), "the solver has not left this file");
         const NumberTable table(file, ',');
         SolvedForces forces;
@@ -196,11 +196,16 @@ public:
         return forces;
     }
     Solution read(const fs::path& folder, const std::vector<std::string>& fields) const override {
-        return read_solution(folder / solution_name, fields, folder / "mesh.vtu");
+        return read_solution(solution_in(folder), fields, folder / "mesh.vtu");
     }
 
 private:
-    static constexpr const char* solution_name = "solution.vtu";
+    static fs::path solution_in(const fs::path& folder) {
+        std::error_code ignored;
+        const fs::path cgns = folder / "solution.cgns";
+        return fs::exists(cgns, ignored) ? cgns : folder / "solution.vtu";
+    }
+
     std::vector<std::string> words_;
 };
 

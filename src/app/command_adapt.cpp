@@ -76,7 +76,8 @@ void add_adapt_command(CLI::App& app) {
         ->add_option("--solver", arguments->solver,
                      "openfoam, su2, or a command, whose words blanks divide and quotes keep together. It runs in the "
                      "folder of the round, without a shell, where mesh.vtu, mesh.su2, case.toml and, from round 1 on, "
-                     "start.vtu are, and leaves solution.vtu and forces.csv with the columns CL, CD and steady (and "
+                     "start.vtu are, and leaves solution.vtu or solution.cgns, and forces.csv with the columns CL, CD "
+                     "and steady (and "
                      "iterations, residual); {case} stands for the folder")
         ->required()
         ->type_name("openfoam|su2|COMMAND")

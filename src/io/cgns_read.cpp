@@ -18,6 +18,7 @@
 #include <exception>
 #include <fstream>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -74,6 +75,27 @@ public:
         orient_markers(mesh_);
         return std::move(mesh_);
     }
+    /// Returns the names of all arrays at the vertices. Precondition: read()
+    std::vector<std::string> fields() const {
+        std::vector<std::string> names;
+        for_each_field([&](int, const char* name) { names.emplace_back(name); });
+        return names;
+    }
+    /// Returns a field at the vertices. Vectors are those whose components end with X, Y and Z. Precondition: read()
+    SolutionField field(const FieldRequest& request) const {
+        constexpr std::string_view axes = "XYZ";
+        if (request.part == FieldPart::scalar) return {request.name, false, part_of(request, values(request.array), 1)};
+        if (request.part == FieldPart::component) {
+            FieldRequest scalar = request;
+            scalar.part = FieldPart::scalar;
+            scalar.component = 0;
+            return {request.name, false, part_of(scalar, values(request.array + axes[request.component]), 1)};
+        }
+        const std::vector<double> x = values(request.array + "X"), y = values(request.array + "Y");
+        std::vector<double> vectors;
+        for (std::size_t i = 0; i < x.size(); ++i) vectors.insert(vectors.end(), {x[i], y[i]});
+        return {request.name, false, part_of(request, vectors, 2)};
+    }
 
 private:
     using Name = char[33];
@@ -89,6 +111,36 @@ private:
     [[noreturn]] void fail(const std::string& reason) const { throw InputError({name_, 0, {}}, reason); }
     void require(int status) const {
         if (status != CG_OK) fail(cg_get_error());
+    }
+
+    /// Calls act(solution, name) for each array at the vertices.
+    template <class Act>
+    void for_each_field(Act&& act) const {
+        int solutions = 0;
+        require(cg_nsols(file_, 1, 1, &solutions));
+        for (int s = 1; s <= solutions; ++s) {
+            Name name;
+            GridLocation_t location;
+            require(cg_sol_info(file_, 1, 1, s, name, &location));
+            int arrays = 0;
+            require(cg_nfields(file_, 1, 1, s, &arrays));
+            for (int f = 1; location == Vertex && f <= arrays; ++f) {
+                DataType_t type;
+                require(cg_field_info(file_, 1, 1, s, f, &type, name));
+                act(s, name);
+            }
+        }
+    }
+    std::vector<double> values(const std::string& array) const {
+        int solution = 0;
+        for_each_field([&](int s, const char* name) {
+            if (array == name) solution = s;
+        });
+        if (solution == 0) throw UsageError(fmt::format("{}: no array '{}' at the vertices", name_, array));
+        std::vector<double> read(points_);
+        const cgsize_t first = 1, last = static_cast<cgsize_t>(points_);
+        require(cg_field_read(file_, 1, 1, solution, array.c_str(), RealDouble, &first, &last, read.data()));
+        return read;
     }
 
     void read_zone() {
@@ -366,6 +418,23 @@ Mesh read_cgns(const fs::path& file) {
     const std::lock_guard lock(cgns_lock());
     require_sound(file);
     return CgnsReader(file).read();
+}
+
+Solution read_cgns_solution(const fs::path& file, std::span<const FieldRequest> fields) {
+    Solution solution{read_cgns(file), {}};
+    const std::lock_guard lock(cgns_lock());
+    CgnsReader reader(file);
+    reader.read();
+    for (const FieldRequest& field : fields) solution.fields.push_back(reader.field(field));
+    return solution;
+}
+
+std::vector<std::string> cgns_fields(const fs::path& file) {
+    read_cgns(file);
+    const std::lock_guard lock(cgns_lock());
+    CgnsReader reader(file);
+    reader.read();
+    return reader.fields();
 }
 
 }  // namespace lamina::io

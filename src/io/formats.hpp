@@ -135,6 +135,10 @@ struct CgnsVariant {
 };
 void write_cgns(const MeshView& mesh, const std::filesystem::path& file, CgnsVariant variant);
 Mesh read_cgns(const std::filesystem::path& file);
+/// Reads the mesh and fields at its vertices.
+Solution read_cgns_solution(const std::filesystem::path& file, std::span<const FieldRequest> fields);
+/// Returns the names of all arrays at the vertices.
+std::vector<std::string> cgns_fields(const std::filesystem::path& file);
 
 /// Writes ASCII, or binary.
 void write_fluent(const MeshView& mesh, const std::filesystem::path& file, bool binary, std::ostream& out);

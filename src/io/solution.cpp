@@ -2,6 +2,7 @@
 #include <lamina/solution.hpp>
 
 #include <cmath>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -79,6 +80,22 @@ void replace_mesh(Mesh mesh, const std::filesystem::path& file, Solution& soluti
     solution.mesh = std::move(mesh);
 }
 
+#ifdef LAMINA_WITH_CGNS
+Solution read_cgns_fields(const std::filesystem::path& file, std::span<const FieldRequest> fields) {
+    return read_cgns_solution(file, fields);
+}
+std::vector<std::string> cgns_names(const std::filesystem::path& file) { return cgns_fields(file); }
+#else
+Solution read_cgns_fields(const std::filesystem::path& file, std::span<const FieldRequest>) {
+    read_mesh(file);  // says that there is no CGNS
+    return {};
+}
+std::vector<std::string> cgns_names(const std::filesystem::path& file) {
+    read_mesh(file);
+    return {};
+}
+#endif
+
 }  // namespace
 
 }  // namespace lamina::io
@@ -96,16 +113,19 @@ Solution read_solution(const std::filesystem::path& solution, const std::vector<
     if (std::filesystem::is_directory(solution, ignored)) return read_openfoam_solution(solution, requests, mesh);
     if (solution.extension() == ".dat" || solution.extension() == ".csv")
         return read_su2_solution(solution, requests, mesh);
-    if (find_format(solution).name != find_format("solution.vtu").name)
-        throw UsageError(
-            fmt::format("{}: solutions are VTU files, restart files of SU2 (.dat, .csv) or time folders of OpenFOAM",
-                        solution.string()));
-    Solution result = read_vtu_solution(read_file(solution), input_name(solution), requests);
+    const bool is_cgns = solution.extension() == ".cgns";
+    if (!is_cgns && find_format(solution).name != find_format("solution.vtu").name)
+        throw UsageError(fmt::format(
+            "{}: solutions are VTU and CGNS files, restart files of SU2 (.dat, .csv) or time folders of OpenFOAM",
+            solution.string()));
+    Solution result = is_cgns ? read_cgns_fields(solution, requests)
+                              : read_vtu_solution(read_file(solution), input_name(solution), requests);
     if (!mesh.empty()) replace_mesh(read_mesh(mesh), mesh, result);
     return result;
 }
 
 std::vector<std::string> solution_fields(const std::filesystem::path& file) {
+    if (file.extension() == ".cgns") return cgns_names(file);
     return vtu_fields(read_file(file), input_name(file));
 }
 

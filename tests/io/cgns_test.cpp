@@ -12,6 +12,7 @@
 
 #include <lamina/error.hpp>
 #include <lamina/io.hpp>
+#include <lamina/solution.hpp>
 
 #include "support/sample_meshes.hpp"
 #include "support/temporary_folder.hpp"
@@ -38,6 +39,28 @@ std::vector<CgnsSection> sections_of(int file) {
         sections.emplace_back(name, elements, first, last);
     }
     return sections;
+}
+
+TEST(Cgns, SolutionsAtVertices) {
+    const TemporaryFolder folder;
+    const Mesh mesh = tiny();
+    write_mesh(mesh, folder / "s.cgns");
+    int file = 0, solution = 0, field = 0;
+    ASSERT_EQ(cg_open((folder / "s.cgns").c_str(), CG_MODE_MODIFY, &file), CG_OK);
+    ASSERT_EQ(cg_sol_write(file, 1, 1, "FlowSolution", Vertex, &solution), CG_OK);
+    const std::vector<double> x{3, 0, 1, 2, 5}, y{4, 1, 0, 0, 12};
+    const std::vector<float> pressure{1, 2, 3, 4, 5};
+    EXPECT_EQ(cg_field_write(file, 1, 1, solution, RealDouble, "VelocityX", x.data(), &field), CG_OK);
+    EXPECT_EQ(cg_field_write(file, 1, 1, solution, RealDouble, "VelocityY", y.data(), &field), CG_OK);
+    EXPECT_EQ(cg_field_write(file, 1, 1, solution, RealSingle, "Pressure", pressure.data(), &field), CG_OK);
+    cg_close(file);
+    EXPECT_EQ(solution_fields(folder / "s.cgns"), (std::vector<std::string>{"VelocityX", "VelocityY", "Pressure"}));
+    const Solution read = read_solution(folder / "s.cgns", {"Pressure", "Velocity:y", "mag(Velocity)"});
+    EXPECT_EQ(read.mesh.points, mesh.points);
+    EXPECT_EQ(read.fields[0].values, (std::vector<double>{1, 2, 3, 4, 5}));
+    EXPECT_EQ(read.fields[1].values, y);
+    EXPECT_EQ(read.fields[2].values, (std::vector<double>{5, 1, 1, 2, 13}));
+    EXPECT_THROW(read_solution(folder / "s.cgns", {"Mach"}), UsageError);
 }
 
 TEST(Cgns, HoldsEverythingThatSolversLookFor) {
