@@ -5,7 +5,7 @@
 //     positive area; it is conforming (each directed edge is used once); it covers its domain once (signed areas, Euler
 //     characteristic, simple boundary loops, no vertex without cells, none that the boundary passes twice); each
 //     boundary edge is in exactly one marker, and each edge of a marker on the boundary; those of internal markers have
-//     cells on both sides. A wall without thickness is two rows of boundary edges at the same places in one marker, with
+//     cells on both sides. A wall without thickness is a marker of two rows of boundary edges at the same places, with
 //     vertices of their own: such edges may coincide, and nothing else. The check is exact.
 // Limits:
 //  1. Delaunay property and quality are measured, not required. Functions besides check_mesh() need indices in range.

@@ -215,7 +215,7 @@ export async function decodeMesh(base64) {
   const names = new TextDecoder().decode(Uint8Array.from(read.next())).split("\0");
   const kinds = read.next(), sizes = read.next(), ends = summed(read.signed(), 2, sizes);
   const markers = Array.from(sizes, (size, m) => ({
-    name: names[m], kind: ["wall", "far field", "symmetry", "other", "internal"][kinds[m]], edges: ends[m],
+    name: names[m], kind: ["wall", "far field", "symmetry", "other", "periodic", "internal"][kinds[m]], edges: ends[m],
   }));
   const wallDifferences = read.signed(), bodySizes = read.next();
   const wallVertices = summed(wallDifferences, 1, [wallDifferences.length])[0];

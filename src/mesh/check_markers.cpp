@@ -43,13 +43,16 @@ std::vector<SlitEdge> slit_edges(std::span<const Point> points, std::span<const 
         if (marker.kind == MarkerKind::internal) continue;
         std::vector<Segment> edges = marker.edges;
         std::stable_sort(edges.begin(), edges.end(), less);
+        std::vector<SlitEdge> twins;
         for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
             const Segment &s = edges[i], &t = edges[i + 1];
             if (points[s.a.index()] != points[t.b.index()] || points[s.b.index()] != points[t.a.index()]) continue;
             if (s.a == t.b && s.b == t.a) continue;
-            slits.push_back({s, t});
-            slits.push_back({t, s});
+            twins.push_back({s, t});
+            twins.push_back({t, s});
         }
+        // Doubled vertices along a seam that was not closed have other edges in their marker.
+        if (twins.size() == edges.size()) slits.insert(slits.end(), twins.begin(), twins.end());
     }
     std::sort(slits.begin(), slits.end());
     return slits;

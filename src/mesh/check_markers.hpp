@@ -30,7 +30,7 @@ struct SlitEdge {
     friend bool operator<(const SlitEdge& a, const SlitEdge& b) { return a.edge < b.edge; }
 };
 
-/// Returns the edges along walls without thickness, sorted.
+/// Returns the edges along walls without thickness, sorted: those of markers that hold nothing but such pairs.
 std::vector<SlitEdge> slit_edges(std::span<const Point> points, std::span<const Marker> markers);
 
 }  // namespace lamina::mesh

@@ -6,7 +6,7 @@ import struct
 import zlib
 
 NONE, FRESH, BEFORE, BEHIND, CLOSING, DISTANT, QUAD = range(7)
-KINDS = ("wall", "far field", "symmetry", "other")
+KINDS = ("wall", "far field", "symmetry", "other", "periodic", "internal")
 
 
 def part_of(page, name):
