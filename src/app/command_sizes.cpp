@@ -116,7 +116,9 @@ void add_sizes_command(CLI::App& app) {
     auto arguments = std::make_shared<SizesArguments>();
     command
         ->add_option("SOLUTION", arguments->solution,
-                     "VTU file with point data or cell data, or folder of an OpenFOAM case or of one of its times")
+                     "VTU file with point data or cell data, CGNS file with values at vertices, restart file of SU2, "
+                     "or folder of "
+                     "an OpenFOAM case or of one of its times")
         ->required();
     command
         ->add_option("--mesh", arguments->mesh,
