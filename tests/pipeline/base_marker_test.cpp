@@ -103,10 +103,18 @@ TEST(JoinedBodies, KeepTheirMarkersAndAreValid) {
             for (const Segment& edge : marker.edges) {
                 const Point at = midpoint(result.mesh.points[edge.a.index()], result.mesh.points[edge.b.index()]);
                 const double tiny = 1e-12;  // crossings are rounded
-                if (marker.name == "strut") EXPECT_LE(std::abs(at.x - 0.35), 0.05 + tiny);
-                if (marker.name == "tab") EXPECT_LE(std::abs(at.x - 0.9775), 0.0075 + tiny);
-                if (marker.name == "tab") EXPECT_LT(at.y, 0);
-                if (marker.name == "wing") EXPECT_LE(std::abs(at.y), 0.0601);
+                if (marker.name == "strut") {
+                    EXPECT_LE(std::abs(at.x - 0.35), 0.05 + tiny);
+                }
+                if (marker.name == "tab") {
+                    EXPECT_LE(std::abs(at.x - 0.9775), 0.0075 + tiny);
+                }
+                if (marker.name == "tab") {
+                    EXPECT_LT(at.y, 0);
+                }
+                if (marker.name == "wing") {
+                    EXPECT_LE(std::abs(at.y), 0.0601);
+                }
             }
         }
         std::sort(names.begin(), names.end());
