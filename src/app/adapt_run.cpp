@@ -93,7 +93,7 @@ std::optional<AdaptRound> read_round(const fs::path& folder, const std::string& 
 
 std::string optional_text(const auto& value, const char* none = "") { return value ? fmt::format("{}", *value) : none; }
 
-std::string table_of(const std::vector<AdaptRound>& rounds) {
+std::string rounds_table(const std::vector<AdaptRound>& rounds) {
     std::string text = "round,vertices,cells,iterations,steady,CL,CD,log10_residual,seconds\n";
     for (std::size_t i = 0; i < rounds.size(); ++i) {
         const auto& [vertices, cells, forces, seconds] = rounds[i];
@@ -189,7 +189,7 @@ public:
             const bool kept = i < before.size();
             rounds_.push_back(kept ? before[i] : make_round(i));
             if (!case_.quiet) print_result(row_of(i, rounds_.back(), kept));
-            write_file(settings_.folder / "adapt.csv", table_of(rounds_));
+            write_file(settings_.folder / "adapt.csv", rounds_table(rounds_));
             write_file(settings_.folder / "adapt.html", adapt_page(title(), rounds_));
         }
         if (case_.quiet) return;

@@ -88,7 +88,7 @@ private:
 /// A solver that lamina writes cases for.
 class KnownSolver : public AdaptSolver {
 public:
-    KnownSolver(FlowSolver solver, SolverCaseOptions options) : solver_(solver), options_(std::move(options)) {}
+    KnownSolver(FlowSolver solver, const SolverCaseOptions& options) : solver_(solver), options_(options) {}
 
     void require_programs() const override {
         if (solver_ == FlowSolver::su2) return require_program("SU2_CFD");
@@ -154,7 +154,7 @@ private:
 /// Any program.
 class CommandSolver : public AdaptSolver {
 public:
-    explicit CommandSolver(const std::string& command) : words_(words_of_command(command, "option --solver")) {}
+    explicit CommandSolver(const std::string& command) : words_(command_words(command, "option --solver")) {}
 
     void require_programs() const override { require_program(words_.front()); }
     std::vector<std::string> usual_fields() const override { return {"Mach", "Pressure"}; }

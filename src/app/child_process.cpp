@@ -21,7 +21,7 @@ namespace lamina::app {
 
 namespace fs = std::filesystem;
 
-std::vector<std::string> words_of_command(const std::string& command, const std::string& origin) {
+std::vector<std::string> command_words(const std::string& command, const std::string& origin) {
     std::vector<std::string> words;
     bool in_word = false;
     char quote = '\0';
@@ -54,7 +54,7 @@ fs::path find_program(const std::string& word) {
     const char* const given = std::getenv("PATH");
     for (std::string_view rest = given != nullptr ? given : ""; !rest.empty();) {
         const std::size_t colon = rest.find(':');
-        const fs::path file = fs::absolute(fs::path(rest.substr(0, colon)) / word);
+        fs::path file = fs::absolute(fs::path(rest.substr(0, colon)) / word);
         if (can_run(file)) return file;
         rest.remove_prefix(colon == std::string_view::npos ? rest.size() : colon + 1);
     }
@@ -100,6 +100,7 @@ int run_program_in(const fs::path& folder, const std::vector<std::string>& words
                    SignalGuard& guard) {
     std::vector<char*> arguments;
     std::vector<std::string> copies = words;
+    arguments.reserve(copies.size() + 1);
     for (std::string& word : copies) arguments.push_back(word.data());
     arguments.push_back(nullptr);
     const SpawnSettings settings(folder, fs::absolute(log));

@@ -263,7 +263,7 @@ constexpr OtherWord command_words[] = {
 
 /// Returns whether a command takes the options of meshes, or some of them.
 bool takes_mesh_options(const std::string& command) {
-    return command == "mesh" || command == "family" || command == "batch" || command == "case";
+    return command == "mesh" || command == "family" || command == "batch" || command == "case" || command == "adapt";
 }
 
 std::span<const OtherWord> words_of_command(const std::string& command) {

@@ -163,7 +163,7 @@ struct NumberedCells {
     Mesh mesh;
     std::vector<std::uint32_t> numbers;
 };
-NumberedCells read_numbered_openfoam(const std::filesystem::path& file);
+LAMINA_EXPORT NumberedCells read_numbered_openfoam(const std::filesystem::path& file);
 /// Reads fields of a time folder, or of the latest one in the folder of a case. `mesh`: its case or polyMesh; empty: the
 /// case round the time folder.
 Solution read_openfoam_solution(const std::filesystem::path& folder, std::span<const FieldRequest> fields,

@@ -21,12 +21,12 @@ struct Su2Restart {
 
 /// Reads a file in SU2's binary format, or in its ASCII format where the name ends with .csv. Throws IoError, and InputError
 /// where the file is damaged or a number is not finite.
-Su2Restart read_su2_restart(const std::filesystem::path& file);
+LAMINA_EXPORT Su2Restart read_su2_restart(const std::filesystem::path& file);
 /// Writes it in binary.
-void write_su2_restart(const Su2Restart& restart, const std::filesystem::path& file);
+LAMINA_EXPORT void write_su2_restart(const Su2Restart& restart, const std::filesystem::path& file);
 /// Returns a mesh and all fields but the coordinates, on its vertices. Throws InputError where these are not those of the
 /// file.
-Solution with_mesh(Su2Restart restart, Mesh mesh, const std::filesystem::path& file);
+LAMINA_EXPORT Solution with_mesh(Su2Restart restart, Mesh mesh, const std::filesystem::path& file);
 /// Reads some fields; vectors are those whose components end with _x and _y. The mesh is mesh.su2 beside the file where
 /// none is given.
 Solution read_su2_solution(const std::filesystem::path& file, std::span<const FieldRequest> fields,

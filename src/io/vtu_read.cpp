@@ -275,7 +275,7 @@ std::vector<std::string> vtu_fields(const std::string& bytes, const std::filesys
         for (const std::string& name : xml.arrays(section)) {
             // Those of the points come first, and hide those of the cells.
             if (of_meshes.contains(name) || !at_points.insert(name).second) continue;
-            const std::size_t components = xml.components(section + "/" + name);
+            const std::size_t components = xml.components(fmt::format("{}/{}", section, name));
             if (components == 1) fields.push_back(name);
             if (components == 2 || components == 3)
                 for (std::size_t i = 0; i < components; ++i) fields.push_back(name + ":" + "xyz"[i]);

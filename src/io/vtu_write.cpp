@@ -105,6 +105,33 @@ void add_cell_data(const MeshView& mesh, const VtuCells& cells, const AddData& a
     vtu.xml += "      </CellData>\n";
 }
 
+/// Returns how many fields from f on are the components of one vector; 1 where f stands for itself.
+std::size_t vector_components(std::span<const SolutionField> fields, std::size_t f) {
+    const auto stem = [&](std::size_t i) { return fields[i].name.substr(0, fields[i].name.find_last_of(':')); };
+    std::size_t n = 0;
+    for (const char* const axis : {":x", ":y", ":z"}) {
+        const std::size_t i = f + n;
+        if (i >= fields.size() || fields[i].at_cells != fields[f].at_cells || fields[i].name != stem(f) + axis) break;
+        ++n;
+    }
+    return std::max<std::size_t>(n, 1);
+}
+
+/// Adds the fields at points, or those at cells, of so many tuples; on lines they are 0.
+void add_fields(std::span<const SolutionField> fields, bool at_cells, std::size_t tuples, VtuWriter& vtu) {
+    for (std::size_t f = 0; f < fields.size();) {
+        const std::size_t n = vector_components(fields, f);
+        const std::string& first = fields[f].name;
+        const std::string name = n == 1 ? first : first.substr(0, first.size() - 2);
+        if (fields[f].at_cells == at_cells)
+            vtu.add_array<double>(name.c_str(), tuples, n, [fields, f, n](std::size_t i) {
+                const std::vector<double>& values = fields[f + i % n].values;
+                return i / n < values.size() ? values[i / n] : 0;
+            });
+        f += n;
+    }
+}
+
 void add_points(const MeshView& mesh, VtuWriter& vtu) {
     vtu.xml += "      <Points>\n";
     vtu.add_array<double>("Points", mesh.points.size(), 3, [&mesh](std::size_t i) {
@@ -188,33 +215,14 @@ void write_vtu_part(const MeshView& part, std::span<const VertexId> vertices, st
 }
 
 void write_vtu_solution(const Solution& solution, std::ostream& out) {
-    const std::vector<SolutionField>& fields = solution.fields;
-    const std::size_t cells = VtuCells(solution.mesh).count();
-    const auto add = [&](bool at_cells, VtuWriter& vtu) {
-        for (std::size_t f = 0; f < fields.size();) {
-            const auto axis = [&](std::size_t i, char name) {
-                return i < fields.size() && fields[i].at_cells == at_cells && fields[i].name.size() > 2 &&
-                       fields[i].name.ends_with(std::string(":") + name) &&
-                       fields[i].name.substr(0, fields[i].name.size() - 2) ==
-                           fields[f].name.substr(0, fields[f].name.size() - 2);
-            };
-            const std::size_t n = !axis(f, 'x') || !axis(f + 1, 'y') ? 1 : axis(f + 2, 'z') ? 3 : 2;
-            const SolutionField& field = fields[f];
-            if (field.at_cells == at_cells)
-                vtu.add_array<double>((n == 1 ? field.name : field.name.substr(0, field.name.size() - 2)).c_str(),
-                                      at_cells ? cells : field.values.size(), n, [&fields, f, n](std::size_t i) {
-                                          const std::vector<double>& values = fields[f + i % n].values;
-                                          return i / n < values.size() ? values[i / n] : 0;  // on lines
-                                      });
-            f += n;
-        }
-    };
     const auto at_points = [&](VtuWriter& vtu) {
         vtu.xml += "      <PointData>\n";
-        add(false, vtu);
+        add_fields(solution.fields, false, solution.mesh.points.size(), vtu);
         vtu.xml += "      </PointData>\n";
     };
-    write_grid(solution.mesh, at_points, true, {}, out, [&](VtuWriter& vtu) { add(true, vtu); });
+    const std::size_t cells = VtuCells(solution.mesh).count();
+    const auto at_cells = [&](VtuWriter& vtu) { add_fields(solution.fields, true, cells, vtu); };
+    write_grid(solution.mesh, at_points, true, {}, out, at_cells);
 }
 
 void write_vtu_sizes(const SizedMesh& sizes, std::ostream& out) {
