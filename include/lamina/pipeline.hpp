@@ -65,8 +65,8 @@ struct CaseOptions {
     /// Whether the far field is two markers: `inlet`, where a uniform flow at the angle of attack enters, and `outlet`.
     bool inlet_outlet = false;
     std::vector<InternalLine> lines{};  ///< lines inside the domain
-    WorkLimits limits{};   ///< runs beyond them are refused
-    unsigned threads = 0;  ///< number of threads; 0: one per core
+    WorkLimits limits{};                ///< runs beyond them are refused
+    unsigned threads = 0;               ///< number of threads; 0: one per core
 };
 
 /// Throws OptionError where an option of any stage is out of range, where a y+ or the use of the flow lacks its

@@ -30,8 +30,7 @@ void subtract_constraints(const MeshView& mesh, const std::vector<Segment>& cons
         const auto [edge, twin] = pairs[i];
         if (edge == no_edge) {
             defects.add([&] {
-                return MeshDefect{fmt::format("constraint {} is no edge of the mesh",
-                                              edge_text(constraint)),
+                return MeshDefect{fmt::format("constraint {} is no edge of the mesh", edge_text(constraint)),
                                   mesh.points[constraint.a.index()]};
             });
             continue;
