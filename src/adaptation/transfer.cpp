@@ -186,7 +186,7 @@ private:
 class CellReconstruction {
 public:
     explicit CellReconstruction(const Mesh& mesh)
-        : mesh_(mesh), middles_(cell_middles(mesh)), cells_(mesh, std::vector<char>(middles_.size(), 1)) {}
+        : middles_(cell_middles(mesh)), cells_(mesh, std::vector<char>(middles_.size(), 1)) {}
 
     /// Returns the gradient of a field in each cell.
     std::vector<Point> gradients(const std::vector<double>& values) const {
@@ -232,7 +232,6 @@ private:
         return {(yy * xf - xy * yf) / determinant, (xx * yf - xy * xf) / determinant};
     }
 
-    const Mesh& mesh_;
     std::vector<Point> middles_;
     VertexCells cells_;
 };

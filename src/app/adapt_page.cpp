@@ -10,7 +10,7 @@ namespace lamina::app {
 
 namespace {
 
-constexpr double width = 420, height = 260, margin = 60;
+constexpr double chart_width = 420, chart_height = 260, chart_margin = 60;
 
 std::string escaped(const std::string& text) {
     std::string result;
@@ -44,13 +44,15 @@ std::string chart(const char* name, std::span<const AdaptRound> rounds, double S
     const std::string ends = fmt::format(
         "<text x=\"{}\" y=\"{}\">{:.0f}</text><text x=\"{}\" y=\"{}\" text-anchor=\"end\">{:.0f} vertices"
         "</text><text x=\"4\" y=\"{}\">{:.6g}</text><text x=\"4\" y=\"{}\">{:.6g}</text>",
-        margin, height - 8, x.low, width, height - 8, x.high, height - margin / 2, y.low, margin / 2, y.high);
+        chart_margin, chart_height - 8, x.low, chart_width, chart_height - 8, x.high, chart_height - chart_margin / 2,
+        y.low, chart_margin / 2, y.high);
     x.widen();
     y.widen();
     std::string line, dots;
     for (std::size_t i = 0; i < rounds.size(); ++i) {
-        const double px = margin + (width - margin) * x.share(static_cast<double>(rounds[i].vertices));
-        const double py = (height - margin / 2) * (1 - y.share(rounds[i].forces.*coefficient));
+        const double px =
+            chart_margin + (chart_width - chart_margin) * x.share(static_cast<double>(rounds[i].vertices));
+        const double py = (chart_height - chart_margin / 2) * (1 - y.share(rounds[i].forces.*coefficient));
         line += fmt::format("{:.1f},{:.1f} ", px, py);
         dots +=
             fmt::format("<circle cx=\"{0:.1f}\" cy=\"{1:.1f}\" r=\"4\"/><text x=\"{0:.1f}\" y=\"{2:.1f}\">{3}</text>",
@@ -60,7 +62,7 @@ std::string chart(const char* name, std::span<const AdaptRound> rounds, double S
         "<figure><figcaption>{}</figcaption><svg viewBox=\"0 0 {} {}\" width=\"{}\"><polyline points=\"{}\" "
         "fill=\"none\" "
         "stroke=\"#8ac\"/>{}{}</svg></figure>\n",
-        name, width + 40, height, width + 40, line, dots, ends);
+        name, chart_width + 40, chart_height, chart_width + 40, line, dots, ends);
 }
 
 }  // namespace

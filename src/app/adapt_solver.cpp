@@ -154,7 +154,7 @@ private:
 /// Any program.
 class CommandSolver : public AdaptSolver {
 public:
-    explicit CommandSolver(const std::string& command) : words_(command_words(command, "option --solver")) {}
+    explicit CommandSolver(const std::string& command) : words_(split_command(command, "option --solver")) {}
 
     void require_programs() const override { require_program(words_.front()); }
     std::vector<std::string> usual_fields() const override { return {"Mach", "Pressure"}; }

@@ -21,7 +21,7 @@ namespace lamina::app {
 
 namespace fs = std::filesystem;
 
-std::vector<std::string> command_words(const std::string& command, const std::string& origin) {
+std::vector<std::string> split_command(const std::string& command, const std::string& origin) {
     std::vector<std::string> words;
     bool in_word = false;
     char quote = '\0';

@@ -11,7 +11,7 @@ namespace lamina::app {
 
 /// Returns the words of a command, which blanks divide. What stands between quotes, ' or ", is one word or a part of one.
 /// Throws UsageError, which begins with `origin`, for a quote that does not end, and where there are no words.
-std::vector<std::string> command_words(const std::string& command, const std::string& origin);
+std::vector<std::string> split_command(const std::string& command, const std::string& origin);
 
 /// Returns the file of a program: the word itself where it has a slash, as an absolute path, or the first of that name in
 /// PATH. Empty where there is none that may be run.

@@ -11,6 +11,9 @@ inline bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c 
 /// Returns whether a character is white space within a line. Ctrl-Z, which ends old DOS files, counts as such.
 inline bool is_space(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f' || c == '\x1a'; }
 
+/// Returns whether a character is white space or ends a line.
+inline bool is_blank(char c) { return is_space(c) || c == '\n' || c == '\r'; }
+
 /// Returns the text without white space at both ends.
 std::string_view trimmed(std::string_view text);
 

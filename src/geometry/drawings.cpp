@@ -46,8 +46,6 @@ bool is_iges(std::string_view text) {
     return line.size() == 80 && line[section_column] == 'S' && line.ends_with('1');
 }
 
-bool is_blank(char c) { return is_space(c) || c == '\n' || c == '\r'; }
-
 /// Returns whether an object follows somewhere: an opening brace and a name.
 bool has_object(std::string_view text) {
     for (std::size_t at = text.find('{'); at != std::string_view::npos; at = text.find('{', at + 1)) {

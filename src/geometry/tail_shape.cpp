@@ -36,7 +36,7 @@ struct OpenOutline {
     bool is_sharp() const { return points.front().at == points.back().at; }
 };
 
-[[noreturn]] void refuse(const Element& e, Point at, const std::string& reason) {
+[[noreturn]] void refuse_tail(const Element& e, Point at, const std::string& reason) {
     throw InputError({e.file, 0, at}, fmt::format("element {}: {}", e.name, reason));
 }
 
@@ -53,7 +53,7 @@ OpenOutline opened(const Element& e) {
         first = last = static_cast<std::size_t>(at - e.points.begin());
         const double turning = core::degrees(turning_angles(e.points)[first]);
         if (turning < sharp_corner_deg)
-            refuse(
+            refuse_tail(
                 e, features.trailing_edge,
                 fmt::format("it has no trailing edge to change: its rear is neither a base nor a corner of more than "
                             "{} degrees",
@@ -117,9 +117,9 @@ void extend_sides(OpenOutline& outline, const Element& e) {
     const double t = across != 0 ? cross(lower - upper, along_upper) / across : -1;
     const double most = max_extension * outline.chord();
     if (!(s > 0 && t > 0 && s <= most && t <= most))
-        refuse(e, outline.trailing_edge,
-               fmt::format("its sides do not meet within {} chords behind the base: give --sharpen-te blend",
-                           max_extension));
+        refuse_tail(e, outline.trailing_edge,
+                    fmt::format("its sides do not meet within {} chords behind the base: give --sharpen-te blend",
+                                max_extension));
     const Point tip = upper + s * along_upper;
     const auto continuation = [&](Point from, Point neighbour) {
         const double edges = std::clamp(std::ceil(distance(from, tip) / distance(from, neighbour)), 1.0, max_edges);

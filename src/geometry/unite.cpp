@@ -56,10 +56,10 @@ struct OutlineVertex {
     std::size_t body;
 };
 
-using Loop = std::vector<OutlineVertex>;
+using OutlineLoop = std::vector<OutlineVertex>;
 
 /// Returns the loops of the border of the union.
-std::vector<Loop> border_loops(const Arrangement& arrangement) {
+std::vector<OutlineLoop> border_loops(const Arrangement& arrangement) {
     const std::vector<Triangle>& triangles = arrangement.cells.triangles;
     std::vector<std::pair<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t>> bodies;  // of edges
     for (std::size_t i = 0; i < arrangement.cells.segments.size(); ++i) {
@@ -69,9 +69,9 @@ std::vector<Loop> border_loops(const Arrangement& arrangement) {
     std::sort(bodies.begin(), bodies.end());
     const std::vector<std::uint32_t> twins = half_edges(arrangement.points.size(), triangles);
     const IndexLists lists = boundary_loops(twins);
-    std::vector<Loop> loops;
+    std::vector<OutlineLoop> loops;
     for (std::size_t i = 0; i < lists.size(); ++i) {
-        Loop& loop = loops.emplace_back();
+        OutlineLoop& loop = loops.emplace_back();
         for (const std::uint32_t h : lists[i]) {
             const VertexId a = origin(triangles, h), b = origin(triangles, next_half_edge(h));
             const std::pair<std::uint32_t, std::uint32_t> edge = std::minmax(a.value, b.value);
@@ -84,9 +84,9 @@ std::vector<Loop> border_loops(const Arrangement& arrangement) {
 
 /// Throws InputError where outlines pass a vertex twice.
 void require_no_touching_points(const Geometry& geometry, const Arrangement& arrangement,
-                                const std::vector<Loop>& outlines) {
+                                const std::vector<OutlineLoop>& outlines) {
     std::vector<char> passed(arrangement.points.size());
-    for (const Loop& loop : outlines)
+    for (const OutlineLoop& loop : outlines)
         for (const OutlineVertex& v : loop)
             if (std::exchange(passed[v.vertex], 1) != 0) {
                 const Element& element = geometry.elements[v.body];
@@ -100,16 +100,16 @@ void require_no_touching_points(const Geometry& geometry, const Arrangement& arr
 
 /// The outer outlines of the union, and the pockets that they enclose.
 struct UnionOutlines {
-    std::vector<Loop> outlines;
+    std::vector<OutlineLoop> outlines;
     std::size_t pockets = 0;
 };
 
 /// Sorts loops: outlines that lie in pockets of others are left out with these.
-UnionOutlines outer_outlines(const Arrangement& arrangement, std::vector<Loop> loops) {
+UnionOutlines outer_outlines(const Arrangement& arrangement, std::vector<OutlineLoop> loops) {
     UnionOutlines result;
     std::vector<std::vector<Point>> polygons;
-    std::vector<Loop> candidates;
-    for (Loop& loop : loops) {
+    std::vector<OutlineLoop> candidates;
+    for (OutlineLoop& loop : loops) {
         const auto vertex = [&](std::size_t i) { return arrangement.points[loop[i].vertex]; };
         if (core::polygon_orientation(loop.size(), vertex) < 0) {
             ++result.pockets;
@@ -133,7 +133,7 @@ UnionOutlines outer_outlines(const Arrangement& arrangement, std::vector<Loop> l
 }
 
 /// Returns whether a loop is an outline as it was given.
-bool is_unchanged(const Arrangement& arrangement, const Geometry& geometry, const Loop& loop) {
+bool is_unchanged(const Arrangement& arrangement, const Geometry& geometry, const OutlineLoop& loop) {
     const std::size_t body = loop.front().body;
     const std::vector<Point>& given = geometry.elements[body].points;
     if (loop.size() != given.size()) return false;
@@ -143,14 +143,14 @@ bool is_unchanged(const Arrangement& arrangement, const Geometry& geometry, cons
 }
 
 /// Rotates a loop so that it begins at the first of its points that was given.
-void begin_at_given_point(Loop& loop) {
+void begin_at_given_point(OutlineLoop& loop) {
     const auto first = std::min_element(
         loop.begin(), loop.end(), [](const OutlineVertex& a, const OutlineVertex& b) { return a.vertex < b.vertex; });
     std::rotate(loop.begin(), first, loop.end());
 }
 
 /// Returns the element of an outline that several bodies share, or one that crossed itself.
-Element joined(const Arrangement& arrangement, const Geometry& geometry, const Loop& loop) {
+Element joined(const Arrangement& arrangement, const Geometry& geometry, const OutlineLoop& loop) {
     std::vector<std::size_t> bodies;
     for (const OutlineVertex& v : loop) bodies.push_back(v.body);
     std::sort(bodies.begin(), bodies.end());
@@ -197,7 +197,7 @@ Geometry unite(Geometry geometry) {
     require_no_touching_points(geometry, arrangement, found.outlines);
     std::vector<std::pair<std::size_t, Element>> elements;  // with the first body of each
     std::vector<char> is_shown(geometry.elements.size());
-    for (Loop loop : found.outlines) {
+    for (OutlineLoop loop : found.outlines) {
         begin_at_given_point(loop);
         std::size_t first = loop.front().body;
         for (const OutlineVertex& v : loop) {

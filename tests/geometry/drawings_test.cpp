@@ -20,6 +20,7 @@ namespace {
 
 using fixtures::dxf;
 using fixtures::entity;
+using fixtures::has_repair;
 using fixtures::iges;
 using fixtures::step;
 using fixtures::svg;
@@ -44,11 +45,6 @@ std::string message_of(const std::string& text, const GeometryOptions& options =
     }
     ADD_FAILURE() << "accepted: " << text.substr(0, 400);
     return {};
-}
-
-bool has_repair(const Element& e, const std::string& text) {
-    return std::any_of(e.repairs.begin(), e.repairs.end(),
-                       [&](const std::string& repair) { return repair.find(text) != std::string::npos; });
 }
 
 /// Returns the largest distance of the edges of an outline from the unit circle.

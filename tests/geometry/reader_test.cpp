@@ -21,12 +21,8 @@ namespace {
 
 using surface::summarize;
 
+using fixtures::has_repair;
 using fixtures::read;
-
-bool has_repair(const Element& e, const std::string& part) {
-    return std::any_of(e.repairs.begin(), e.repairs.end(),
-                       [&](const std::string& r) { return r.find(part) != std::string::npos; });
-}
 
 TEST(Reader, EveryFormatGivesTheSameLoop) {
     for (const std::string& content : fixtures::same_loop) {

@@ -13,16 +13,13 @@
 #include <lamina/pipeline.hpp>
 #include <lamina/stream.hpp>
 
+#include "support/sample_meshes.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace lamina {
 namespace {
 
-const Marker* marker_of(const Mesh& mesh, const std::string& name) {
-    for (const Marker& marker : mesh.markers)
-        if (marker.name == name) return &marker;
-    return nullptr;
-}
+using test::marker_of;
 
 double length_of(const Mesh& mesh, const Marker& marker) {
     double sum = 0;

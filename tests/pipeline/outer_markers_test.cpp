@@ -19,6 +19,7 @@ namespace {
 
 using pipeline::add_outer_walls;
 using pipeline::split_far_field;
+using test::marker_of;
 
 TEST(InletOutlet, EachEdgeIsWhereTheFlowEntersOrNot) {
     for (const double alpha : {0.0, 30.0, -75.0, 90.0}) {
@@ -64,12 +65,6 @@ TEST(InletOutlet, IsAnOptionOfTheMesh) {
     EXPECT_TRUE(check_mesh(mesh).valid());
     ASSERT_EQ(mesh.markers.size(), 3u);
     EXPECT_EQ(mesh.markers[1].name, "inlet");
-}
-
-const Marker* marker_of(const Mesh& mesh, const std::string& name) {
-    for (const Marker& marker : mesh.markers)
-        if (marker.name == name) return &marker;
-    return nullptr;
 }
 
 /// Returns the length of all edges of a marker, which must lie at this y.

@@ -1,6 +1,7 @@
 // Airfoil files as strings, one per format or quirk. Each describes sections of about eight points.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -158,6 +159,12 @@ inline Geometry read(const std::string& content, const std::string& name = "samp
     const test::TemporaryFolder folder;
     const std::vector<std::string> inputs{folder.write(name, content).string()};
     return read_geometry(inputs);
+}
+
+/// Returns whether one of the repairs of an element says so.
+inline bool has_repair(const Element& e, const std::string& part) {
+    return std::any_of(e.repairs.begin(), e.repairs.end(),
+                       [&](const std::string& repair) { return repair.find(part) != std::string::npos; });
 }
 
 }  // namespace lamina::fixtures

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <numeric>
 #include <random>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -151,6 +152,13 @@ inline Mesh shuffled(const Mesh& mesh, unsigned seed) {
     for (Segment& edge : result.constraints) edge = {std::min(edge.a, edge.b), std::max(edge.a, edge.b)};
     std::sort(result.constraints.begin(), result.constraints.end());
     return result;
+}
+
+/// Returns the marker of this name; null where there is none.
+inline const Marker* marker_of(const Mesh& mesh, const std::string& name) {
+    for (const Marker& marker : mesh.markers)
+        if (marker.name == name) return &marker;
+    return nullptr;
 }
 
 }  // namespace lamina::test

@@ -30,7 +30,7 @@ constexpr double max_gap_share = 0.1;
 constexpr double min_size_share = 0.01;
 /// A far field that is no rectangle is this many times as large as what it contains, and about as wide as high.
 constexpr double far_field_ratio = 5;
-constexpr std::size_t max_outlines = 2000, max_points = 4'000'000;
+constexpr std::size_t max_drawn_outlines = 2000, max_drawn_points = 4'000'000;
 
 /// A chain with its measures.
 struct Outline {
@@ -88,7 +88,7 @@ std::vector<Chain> chains_of(std::span<const FlatCurve> curves, double size, con
     return best;
 }
 
-bool contains(const Box& outer, const Box& inner) {
+bool box_holds(const Box& outer, const Box& inner) {
     return outer.lower.x <= inner.lower.x && outer.lower.y <= inner.lower.y && outer.upper.x >= inner.upper.x &&
            outer.upper.y >= inner.upper.y;
 }
@@ -177,7 +177,7 @@ private:
         double inner = 0;
         for (const Outline& o : outlines_) {
             if (&o == &*outer) continue;
-            if (!contains(outer->box, o.box)) return false;
+            if (!box_holds(outer->box, o.box)) return false;
             inner = std::max(inner, o.size());
         }
         constexpr double rounding = 1e-6, min_full_share = 0.6, max_aspect_ratio = 3;  // which no section has
@@ -193,11 +193,11 @@ private:
     }
 
     void leave_out_inner() {
-        if (outlines_.size() > max_outlines) return;  // refused later
+        if (outlines_.size() > max_drawn_outlines) return;  // refused later
         std::vector<bool> is_inner(outlines_.size());
         for (std::size_t i = 0; i < outlines_.size(); ++i)
             for (std::size_t j = 0; j < outlines_.size() && !is_inner[i]; ++j)
-                is_inner[i] = outlines_[j].area > outlines_[i].area && contains(outlines_[j].box, outlines_[i].box) &&
+                is_inner[i] = outlines_[j].area > outlines_[i].area && box_holds(outlines_[j].box, outlines_[i].box) &&
                               is_inside(outlines_[i].rough[0], outlines_[j].rough);
         std::size_t i = 0;
         leave_out([&](const Outline&) { return is_inner[i++]; }, "inside another one, where there is no flow");
@@ -237,8 +237,8 @@ std::vector<RawOutline> outlines_of_plane(std::span<const FlatCurve> curves, con
         notes.push_back(fmt::format("{} open chain{} of curves left out", open.size(), open.size() == 1 ? "" : "s"));
     std::vector<Outline> outlines = Selection(std::move(closed), notes).take();
     if (outlines.empty()) throw InputError({file, curves[0].line, {}}, "the drawing has no outline with an inside");
-    if (outlines.size() > max_outlines)
-        throw InputError({file, 1, {}}, fmt::format("more than {} outlines in one drawing", max_outlines));
+    if (outlines.size() > max_drawn_outlines)
+        throw InputError({file, 1, {}}, fmt::format("more than {} outlines in one drawing", max_drawn_outlines));
 
     std::vector<RawOutline> result;
     std::size_t points = 0;
@@ -246,8 +246,9 @@ std::vector<RawOutline> outlines_of_plane(std::span<const FlatCurve> curves, con
         SampledChain sampled = sample(curves, outline.chain, outline.size(), deviation_share * outline.size(), file);
         points += sampled.points.size();
         const FlatCurve& first = curves[outline.chain.links[0].curve];
-        if (points > max_points)
-            throw InputError({file, first.line, {}}, fmt::format("outlines that need more than {} points", max_points));
+        if (points > max_drawn_points)
+            throw InputError({file, first.line, {}},
+                             fmt::format("outlines that need more than {} points", max_drawn_points));
         RawOutline& raw = result.emplace_back();
         raw.points = std::move(sampled.points);
         raw.title = first.layer;

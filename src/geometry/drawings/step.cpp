@@ -26,8 +26,6 @@ namespace {
 
 constexpr std::size_t max_depth_of_instances = 16, most_reads_of_byte = 100;
 
-bool is_blank(char c) { return is_space(c) || c == '\n' || c == '\r'; }
-
 std::string_view without_blanks(std::string_view text) {
     while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
     while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);

@@ -24,8 +24,6 @@ namespace {
 
 constexpr std::size_t max_depth_of_groups = 256;
 
-bool is_blank(char c) { return is_space(c) || c == '\n' || c == '\r'; }
-
 /// Numbers in a list, which white space, commas, signs and further points divide: "1.5.5-3e-2".
 class NumberList {
 public:
