@@ -37,15 +37,16 @@ enum class SurfaceSide {
 
 /// The largest spacing at a station of an element.
 struct StationSpacing {
-    std::string element;  ///< its name, or "all"
-    SurfaceSide side = SurfaceSide::both;
-    double station = 0;  ///< along the chord, from 0 at the leading edge to 1 at the trailing edge
-    double spacing = 0;  ///< in lengths of the element, > 0
+    std::string element;                   ///< its name, or "all"
+    SurfaceSide side = SurfaceSide::both;  ///< which sides have it
+    double station = 0;                    ///< along the chord, from 0 at the leading edge to 1 at the trailing edge
+    double spacing = 0;                    ///< in lengths of the element, > 0
 };
 
 /// Numbers of wall edges on both sides of an element.
 struct SideEdges {
-    std::size_t upper = 0, lower = 0;
+    std::size_t upper = 0;  ///< of the side that the outline runs over first
+    std::size_t lower = 0;  ///< of the other one
 };
 
 /// Options of prepare_surfaces(). Lengths are shares of the element's length, the longer side of the tightest box round
