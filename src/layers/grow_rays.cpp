@@ -234,7 +234,9 @@ void count_layers_on_all_rays(Rays& rays) {
         shift_rays_of_corners(rays.growth, rays.set);
         fit_and_count_layers(rays);
         if (round == max_rounds || !uses("lower_first")) return;
-        const auto share = [&](std::size_t i) { return rays.counts[i] == 0 && rays.asked[i] > 0 ? 0.5 : 1; };
+        const auto share = [&](std::size_t i) {
+            return rays.counts[i] == 0 && rays.asked[i] > 0 && rays.limits[i] > 0 ? 0.5 : 1;
+        };
         if (!lower_first_layers(rays, share)) return;
     }
 }

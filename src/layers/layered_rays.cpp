@@ -82,8 +82,11 @@ void measure_room(Rays& rays, std::span<const Point> bare) {
     set_slants(rays.set);
     rays.asked = asked_heights(rays.set, rays.growth);
     rays.limits = height_limits(rays.set, rays.asked);
+    std::vector<Point> sorted(bare.begin(), bare.end());
+    std::sort(sorted.begin(), sorted.end(), lexicographically_less);
     for (std::size_t i = 0; i < rays.limits.size(); ++i)
-        if (std::find(bare.begin(), bare.end(), rays.set.lines[i].origin) != bare.end()) rays.limits[i] = 0;
+        if (std::binary_search(sorted.begin(), sorted.end(), rays.set.lines[i].origin, lexicographically_less))
+            rays.limits[i] = 0;
     rays.lower_to_copies(rays.limits);
     rays.front = bounded_heights(rays);
 }

@@ -165,7 +165,7 @@ struct OuterWall {
     double first_height = 0;    ///< of its layers, in units of the input; 0: it has none
 };
 
-/// What is in the way of rays without being a wall.
+/// Lines and outlines inside the domain that rays must not reach. They have no layers themselves.
 struct Obstacles {
     std::vector<std::vector<Point>> outlines;  ///< simple and counter-clockwise, or the two ends of a line
     std::vector<Point> bare;                   ///< vertices of walls at which rays have no layers

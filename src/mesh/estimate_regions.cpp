@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
@@ -10,30 +9,12 @@
 #include <lamina/mesh.hpp>
 
 #include "core/cell_shape.hpp"
+#include "core/disjoint_sets.hpp"
 #include "mesh/adjacency.hpp"
 
 namespace lamina::mesh {
 
 namespace {
-
-/// Sets of vertices that hang together.
-class VertexSets {
-public:
-    explicit VertexSets(std::size_t vertices) : parent_(vertices) {
-        std::iota(parent_.begin(), parent_.end(), std::uint32_t{0});
-    }
-    std::uint32_t find(std::uint32_t v) {
-        while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
-        return v;
-    }
-    void join(VertexId a, VertexId b) {
-        const auto [low, high] = std::minmax({find(a.value), find(b.value)});
-        parent_[high] = low;
-    }
-
-private:
-    std::vector<std::uint32_t> parent_;
-};
 
 /// What the shape of a cell says about it.
 enum class Look {
@@ -84,13 +65,14 @@ using namespace mesh;
 
 std::vector<Region> estimate_regions(const MeshView& mesh) {
     const CellEdges cells(mesh);
-    VertexSets sets(mesh.points.size());
+    core::DisjointSets sets(mesh.points.size());
     std::vector<std::uint32_t> thin;
     for (std::size_t cell = 0; cell < cells.cells(); ++cell) {
         const Look look = look_of(mesh, cell);
         if (look == Look::other) continue;
         if (look == Look::thin) thin.push_back(static_cast<std::uint32_t>(cell));
-        for (std::size_t i = 1; i < cells.corners(cell); ++i) sets.join(cells.corner(cell, 0), cells.corner(cell, i));
+        for (std::size_t i = 1; i < cells.corners(cell); ++i)
+            sets.join(cells.corner(cell, 0).value, cells.corner(cell, i).value);
     }
     std::vector<bool> at_wall(mesh.points.size(), false);  // per set, at its first vertex
     for (const Marker& marker : mesh.markers) {

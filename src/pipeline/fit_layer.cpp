@@ -74,27 +74,6 @@ SizeField size_of_outer_walls(const CaseOptions& options, const Geometry& geomet
     return sizing::make_size_field(bodies.walls, sources, sizing, conditions.chord, domain);
 }
 
-/// Returns the fronts of the bodies in the domain.
-std::vector<std::vector<Point>> fronts_in_domain(const layers::Rays& rays, const Geometry& geometry) {
-    std::vector<std::vector<Point>> fronts = layers::fronts(rays);
-    fronts.resize(geometry.elements.size());
-    return fronts;
-}
-
-/// Shortens rays that leave no room for the border between blades of a row, as where they rise ahead of a nose towards the
-/// layer of the next blade. Each round halves those heights.
-void open_channel(const Geometry& geometry, layers::Rays& rays) {
-    constexpr int max_rounds = 10;
-    std::vector<std::vector<Point>> walls;
-    for (const Element& element : geometry.elements) walls.push_back(element.points);
-    for (int round = 0; round < max_rounds; ++round) {
-        const std::vector<layers::Circle> places =
-            narrow_places(fronts_in_domain(rays, geometry), walls, *geometry.pitch);
-        if (places.empty()) return;
-        layers::shorten_rays(places, rays);
-    }
-}
-
 /// Makes rays on walls, within their far field. `finer` are sources by which outer walls become finer than bodies ask
 /// for.
 FittedLayer grow_within(const CaseOptions& options, Geometry geometry, const ReferenceConditions& conditions,
@@ -114,7 +93,6 @@ FittedLayer grow_within(const CaseOptions& options, Geometry geometry, const Ref
     if (options.layer.enabled && !geometry.pitch)
         require_room_for_layers(geometry, layers::fronts(rays), far_field, options.layer, growth);
     std::vector<double> front = rays.front;
-    if (geometry.pitch && options.layer.enabled) open_channel(geometry, rays);
     return {.geometry = std::move(geometry),
             .conditions = conditions,
             .far_field = std::move(far_field),
@@ -150,12 +128,17 @@ std::vector<SizeSource> gaps_above_symmetry(const FittedLayer& fitted, std::span
     return sources;
 }
 
+/// Returns the fronts of the bodies in the domain.
+std::vector<std::vector<Point>> fronts_in_domain(const layers::Rays& rays, const Geometry& geometry) {
+    std::vector<std::vector<Point>> fronts = layers::fronts(rays);
+    fronts.resize(geometry.elements.size());
+    return fronts;
+}
+
 /// Draws the border of a row, and repeats the requests of sizes along it.
 void request_in_row(std::span<const std::vector<Point>> fronts, FittedLayer& fitted) {
     fitted.below = border_below(fronts, fitted.far_field);
     std::vector<SizeSource>& at_borders = fitted.requests.at_borders;
-    for (const SizeSource& source : sizes_beside_border(fronts, fitted.below, fitted.far_field.pitch))
-        at_borders.push_back(source);
     at_borders = repeated_in_row(std::move(at_borders), fitted.far_field);
     fitted.requests.sources = repeated_in_row(std::move(fitted.requests.sources), fitted.far_field);
 }

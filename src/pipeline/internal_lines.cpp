@@ -3,11 +3,11 @@
 #include "pipeline/internal_lines.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
 #include <set>
-#include <sstream>
 #include <utility>
 
 #include <fmt/format.h>
@@ -19,8 +19,11 @@
 
 #include "core/bounding_box.hpp"
 #include "core/box_tree.hpp"
+#include "core/disjoint_sets.hpp"
+#include "core/lexicographic_order.hpp"
 #include "core/segments.hpp"
 #include "core/text.hpp"
+#include "geometry/coordinate_rows.hpp"
 #include "geometry/inside.hpp"
 #include "geometry/symmetry.hpp"
 
@@ -31,23 +34,16 @@ namespace {
 constexpr const char* option_name = "line";
 constexpr const char* two_sided_word = "two-sided";
 
-struct Lexicographic {
-    bool operator()(Point a, Point b) const { return lexicographically_less(a, b); }
-};
-
-/// Returns the points of a file with two numbers in each line. Empty lines and those that begin with # do not count.
+/// Returns the points of a file with two numbers in each line. Empty lines and comments do not count.
 std::vector<Point> read_points(const std::string& file) {
-    std::istringstream in(read_file(file, max_text_bytes));
+    const std::string text = read_file(file, max_text_bytes);
+    geometry::RowReader rows(text, file);
     std::vector<Point> points;
-    std::string row;
-    for (std::size_t number = 1; std::getline(in, row); ++number) {
-        std::replace(row.begin(), row.end(), ',', ' ');
-        std::istringstream words(row);
-        std::string x, y, rest;
-        if (!(words >> x) || x.front() == '#') continue;
-        if (!(words >> y) || words >> rest)
-            throw InputError({input_name(file), number, {}}, "expected the two coordinates of a point of a line");
-        points.push_back({core::parse_number(x), core::parse_number(y)});
+    while (const auto row = rows.next()) {
+        if (row->kind == geometry::RowKind::blank || row->kind == geometry::RowKind::comment) continue;
+        if (row->kind != geometry::RowKind::numbers || row->number_count != 2)
+            throw InputError({input_name(file), row->line, {}}, "expected the two coordinates of a point of a line");
+        points.push_back({row->values[0], row->values[1]});
     }
     return points;
 }
@@ -74,7 +70,6 @@ InternalLine parse_line(const std::string& text) {
             line.two_sided = true;
         } else {
             line.size = core::parse_number(parts[i]);
-            core::require_text(*line.size > 0, text, "the size must be > 0");
         }
     }
     if (!is_numbers(place)) {
@@ -96,7 +91,7 @@ std::string line_text(const InternalLine& line) {
     text += ":";
     if (!line.file.empty()) return text + line.file;
     for (std::size_t i = 0; i < line.points.size(); ++i)
-        text += core::concat(i > 0 ? "," : "", core::to_text(line.points[i].x), ",", core::to_text(line.points[i].y));
+        text += core::concat(i > 0 ? "," : "", line.points[i].x, ",", line.points[i].y);
     return text;
 }
 
@@ -124,9 +119,10 @@ void validate_lines(const CaseOptions& options) {
 
 namespace {
 
-/// An edge of a body.
+/// An edge of a body, and the numbers of its ends among the vertices of all bodies.
 struct WallEdge {
     std::size_t element, index;
+    std::size_t first, second;
     Point a, b;
 };
 
@@ -134,18 +130,25 @@ std::vector<WallEdge> wall_edges(const Geometry& geometry) {
     std::vector<WallEdge> edges;
     for (std::size_t e = 0; e < geometry.elements.size(); ++e) {
         const std::vector<Point>& p = geometry.elements[e].points;
-        for (std::size_t i = 0; i < p.size(); ++i) edges.push_back({e, i, p[i], p[(i + 1) % p.size()]});
+        const std::size_t begin = edges.size(), n = p.size();
+        for (std::size_t i = 0; i < n; ++i)
+            edges.push_back({e, i, begin + i, begin + (i + 1) % n, p[i], p[(i + 1) % n]});
     }
     return edges;
 }
 
 constexpr double vertex_share = 0.3;  ///< of an edge: crossings nearer to one of its ends become that end
 
+bool is_inside_body(const Geometry& geometry, Point p) {
+    return std::any_of(geometry.elements.begin(), geometry.elements.end(), [&](const Element& element) {
+        return core::bounding_box(element.points).contains(p) && geometry::contains(element.points, p);
+    });
+}
+
 /// Returns the point of a wall that an end of a line near it is moved to.
 Point attached(Point end, const Geometry& geometry, std::span<const WallEdge> walls) {
     constexpr double reach = 0.5;  // of the edge
-    for (const Element& element : geometry.elements)
-        if (core::bounding_box(element.points).contains(end) && geometry::contains(element.points, end)) return end;
+    if (is_inside_body(geometry, end)) return end;
     double nearest = HUGE_VAL;
     Point result = end;
     for (const WallEdge& wall : walls) {
@@ -195,10 +198,9 @@ Arrangement arrange(std::span<const InternalLine> lines, const Geometry& geometr
     Arrangement result;
     result.walls = wall_edges(geometry);
     std::vector<Segment> segments;
-    for (const Element& element : geometry.elements) {
-        const std::size_t first = result.points.size(), n = element.points.size();
-        for (std::size_t i = 0; i < n; ++i) segments.push_back({VertexId(first + i), VertexId(first + (i + 1) % n)});
-        result.points.insert(result.points.end(), element.points.begin(), element.points.end());
+    for (const WallEdge& wall : result.walls) {
+        segments.push_back({VertexId(wall.first), VertexId(wall.second)});
+        result.points.push_back(wall.a);
     }
     result.wall_points = result.points.size();
     for (std::uint32_t k = 0; k < lines.size(); ++k) {
@@ -216,15 +218,11 @@ Arrangement arrange(std::span<const InternalLine> lines, const Geometry& geometr
     return result;
 }
 
-bool is_inside_body(const Geometry& geometry, Point p) {
-    return std::any_of(geometry.elements.begin(), geometry.elements.end(), [&](const Element& element) {
-        return core::bounding_box(element.points).contains(p) && geometry::contains(element.points, p);
-    });
-}
-
-/// Finds the vertices of lines on walls, and what becomes of them: `moved` has the vertex of the wall for those near one, and
-/// `inserted`, per element and edge, those that become vertices of the wall.
+/// Vertices that walls get: per element, by the number of the edge.
 using InsertedVertices = std::vector<std::map<std::size_t, std::vector<Point>>>;
+
+/// Returns the vertices of lines on walls that become vertices of these, and replaces others in `moved` by the vertex of
+/// the wall that they are near to.
 InsertedVertices settle_on_walls(const Arrangement& arrangement, std::span<const char> used, std::size_t elements,
                                  std::vector<std::size_t>& moved) {
     InsertedVertices inserted(elements);
@@ -242,20 +240,17 @@ InsertedVertices settle_on_walls(const Arrangement& arrangement, std::span<const
         const double length = distance(wall.a, wall.b);
         const auto at = [&](std::size_t v) { return distance(wall.a, arrangement.points[v]); };
         std::sort(vertices.begin(), vertices.end(), [&](std::size_t a, std::size_t b) { return at(a) < at(b); });
-        const auto vertex_of = [&](Point p) {
-            for (std::size_t v = 0; v < arrangement.wall_points; ++v)
-                if (arrangement.points[v] == p) return v;
-            return arrangement.wall_points;
-        };
-        double last = 0;
+        std::size_t last = wall.first;
         for (const std::size_t v : vertices) {
             if (at(v) < vertex_share * length) {
-                moved[v] = vertex_of(wall.a);
+                moved[v] = wall.first;
             } else if (at(v) > (1 - vertex_share) * length) {
-                moved[v] = vertex_of(wall.b);
-            } else if (at(v) > last) {
+                moved[v] = wall.second;
+            } else if (at(v) > at(last)) {
                 inserted[wall.element][wall.index].push_back(arrangement.points[v]);
-                last = at(v);
+                last = v;
+            } else {
+                moved[v] = last;
             }
         }
     }
@@ -264,26 +259,20 @@ InsertedVertices settle_on_walls(const Arrangement& arrangement, std::span<const
 
 /// Throws OptionError where two-sided lines enclose a region, by themselves or with bodies.
 void require_connected_domain(const LineGraph& graph, std::span<const InternalLine> lines, const Geometry& geometry) {
-    std::map<Point, std::size_t, Lexicographic> body_at;
+    std::map<Point, std::size_t, core::LexicographicOrder> body_at;
     for (std::size_t e = 0; e < geometry.elements.size(); ++e)
         for (const Point p : geometry.elements[e].points) body_at.emplace(p, e);
     const std::size_t bodies = geometry.elements.size();
-    std::vector<std::size_t> parent(bodies + graph.points.size());
-    for (std::size_t i = 0; i < parent.size(); ++i) parent[i] = i;
-    const auto root_of = [&](std::size_t i) {
-        while (parent[i] != i) i = parent[i] = parent[parent[i]];
-        return i;
-    };
+    core::DisjointSets connected(bodies + graph.points.size());
     const auto node = [&](VertexId v) {
         const auto body = body_at.find(graph.points[v.index()]);
-        return root_of(body != body_at.end() ? body->second : bodies + v.index());
+        return static_cast<std::uint32_t>(body != body_at.end() ? body->second : bodies + v.index());
     };
     for (std::size_t i = 0; i < graph.pieces.size(); ++i) {
         const InternalLine& line = lines[graph.line[i]];
         if (!line.two_sided) continue;
-        const std::size_t a = node(graph.pieces[i].a), b = node(graph.pieces[i].b);
-        if (a == b) refuse(line, "it encloses a part of the flow, with bodies or other two-sided lines: leave a gap");
-        parent[a] = b;
+        if (!connected.join(node(graph.pieces[i].a), node(graph.pieces[i].b)))
+            refuse(line, "it encloses a part of the flow, with bodies or other two-sided lines: leave a gap");
     }
 }
 
@@ -316,7 +305,7 @@ LineGraph arrange_lines(std::span<const InternalLine> lines, const decoupling::F
     std::vector<std::size_t> moved(arrangement.points.size());
     for (std::size_t v = 0; v < moved.size(); ++v) moved[v] = v;
     const InsertedVertices inserted = settle_on_walls(arrangement, used, geometry.elements.size(), moved);
-    std::set<Point, Lexicographic> on_wall(
+    std::set<Point, core::LexicographicOrder> on_wall(
         arrangement.points.begin(), arrangement.points.begin() + static_cast<std::ptrdiff_t>(arrangement.wall_points));
     for (std::size_t e = 0; e < geometry.elements.size(); ++e) {
         for (const auto& [edge, points] : inserted[e]) on_wall.insert(points.begin(), points.end());
@@ -344,29 +333,45 @@ LineGraph arrange_lines(std::span<const InternalLine> lines, const decoupling::F
 }
 
 std::vector<SizeSource> sizes_between(const LineGraph& graph) {
+    std::vector<Box> boxes;
+    const auto ends_of = [&](std::size_t k) {
+        return std::pair(graph.points[graph.pieces[k].a.index()], graph.points[graph.pieces[k].b.index()]);
+    };
+    for (std::size_t k = 0; k < graph.pieces.size(); ++k)
+        boxes.push_back(core::bounding_box(ends_of(k).first, ends_of(k).second));
+    const core::BoxTree tree(std::move(boxes));
     std::vector<SizeSource> sources;
     for (std::size_t v = 0; v < graph.points.size(); ++v) {
         const Point p = graph.points[v];
-        double nearest = HUGE_VAL;
-        for (const Segment& piece : graph.pieces)
-            if (piece.a.index() != v && piece.b.index() != v)
-                nearest = std::min(nearest, core::distance_to_segment(p, graph.points[piece.a.index()],
-                                                                      graph.points[piece.b.index()]));
+        const double nearest = tree.min_distance(p, HUGE_VAL, [&](std::size_t k) {
+            const auto [a, b] = ends_of(k);
+            return a == p || b == p ? HUGE_VAL : core::distance_to_segment(p, a, b);
+        });
         if (std::isfinite(nearest) && nearest > 0) sources.push_back({.a = p, .b = p, .size = nearest});
     }
     return sources;
 }
 
+std::vector<SizeSource> sizes_along(std::span<const InternalLine> lines) {
+    std::vector<SizeSource> sources;
+    for (const InternalLine& line : lines) {
+        if (!line.size) continue;
+        for (std::size_t i = 0; i + 1 < line.points.size(); ++i)
+            sources.push_back({.a = line.points[i], .b = line.points[i + 1], .size = *line.size});
+    }
+    return sources;
+}
+
 layers::Obstacles obstacles_of(const LineGraph& graph, double first_height) {
-    constexpr double share = 1e-3;
-    const double gap = share * first_height;
+    constexpr double gap_share = 0.1;
     layers::Obstacles obstacles;
     for (std::size_t v = 0; v < graph.points.size(); ++v)
         if (graph.on_wall[v]) obstacles.bare.push_back(graph.points[v]);
     for (const Segment& piece : graph.pieces) {
         const Point a = graph.points[piece.a.index()], b = graph.points[piece.b.index()];
-        const Point along = (1 / distance(a, b)) * (b - a);
-        obstacles.outlines.push_back({a + gap * along, b - gap * along});
+        const double gap = std::min(gap_share * first_height, 0.25 * distance(a, b));
+        const Point along = (gap / distance(a, b)) * (b - a);
+        obstacles.outlines.push_back({a + along, b - along});
     }
     return obstacles;
 }
@@ -375,7 +380,7 @@ decoupling::InnerLines inner_lines(const LineGraph& graph, std::span<const Inter
                                    const RegionBorders& region) {
     decoupling::InnerLines inner;
     if (graph.pieces.empty()) return inner;
-    std::map<Point, VertexId, Lexicographic> border_vertex;
+    std::map<Point, VertexId, core::LexicographicOrder> border_vertex;
     std::vector<Segment> edges;
     std::vector<Box> boxes;
     for (const std::vector<VertexId>& border : region.borders)

@@ -39,7 +39,11 @@ LineGraph arrange_lines(std::span<const InternalLine> lines, const decoupling::F
 /// Returns sizes at the vertices of lines: their distances from other lines that they are no part of.
 std::vector<SizeSource> sizes_between(const LineGraph& graph);
 
-/// Returns the lines as obstacles, which stop short of vertices and walls by a thousandth of this height.
+/// Returns the sizes that lines ask for along themselves.
+std::vector<SizeSource> sizes_along(std::span<const InternalLine> lines);
+
+/// Returns the lines as obstacles, which stop short of vertices and walls by a tenth of this height, or by a
+/// quarter of their length.
 layers::Obstacles obstacles_of(const LineGraph& graph, double first_height);
 
 /// Returns the lines as part of the outer region. Throws MeshError where the layer crosses a line.

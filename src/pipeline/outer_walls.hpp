@@ -23,8 +23,8 @@ struct OuterWallFacts {
 };
 
 /// Returns the walls of this far field, the lower one first. A line of symmetry is one of them unless it cuts bodies.
-/// Those that are no slip walls have layers, unless layers are disabled, with a first height of their own or that of
-/// `growth`. Throws OptionError for a y+ without a Reynolds number, and where a height contradicts the thickness.
+/// Walls at which the flow sticks, fixed or moving, have layers unless these are disabled; slip walls have none. The first
+/// height is the wall's own or that of `growth`. Throws OptionError for a y+ without a Reynolds number, and where a height contradicts the thickness.
 std::vector<OuterWallFacts> outer_wall_facts(const decoupling::FarField& far_field, const FarFieldOptions& options,
                                              const Geometry& geometry, const LayerOptions& layer,
                                              const ReferenceConditions& conditions, const layers::LayerGrowth& growth);

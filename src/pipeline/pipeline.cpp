@@ -97,9 +97,8 @@ MadeMesh run(const Geometry& whole, CaseOptions options, MeshDriver& driver, Sta
     const Geometry& given = is_part ? part : whole;
     const ReferenceConditions conditions = reference_conditions(options.conditions, reference_box(given));
     options.sizing = sizes_in_tunnel(std::move(options.sizing), options.far_field, conditions.chord, options.fineness);
-    for (const InternalLine& line : options.lines)
-        for (std::size_t i = 0; line.size && i + 1 < line.points.size(); ++i)
-            options.sizing.sources.push_back({.a = line.points[i], .b = line.points[i + 1], .size = *line.size});
+    const std::vector<SizeSource> along_lines = sizes_along(options.lines);
+    options.sizing.sources.insert(options.sizing.sources.end(), along_lines.begin(), along_lines.end());
     const WorkBudget budget{options.limits, driver.cost()};
     require_surface_points_within(options.surface, given.elements.size(), budget);
     layers::LayerGrowth growth = layers::layer_growth(options.layer, conditions);

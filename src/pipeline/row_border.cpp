@@ -10,10 +10,8 @@
 #include <lamina/error.hpp>
 
 #include "core/bounding_box.hpp"
-#include "core/box_tree.hpp"
 #include "core/marker_names.hpp"
 #include "core/rounding.hpp"
-#include "core/segments.hpp"
 #include "decoupling/separators.hpp"
 #include "geometry/row.hpp"
 
@@ -93,13 +91,12 @@ std::pair<int, int> copies_that_count(const Box& box, const decoupling::FarField
 }  // namespace
 
 std::vector<Point> border_below(std::span<const std::vector<Point>> fronts, const decoupling::FarField& far_field) {
-    constexpr double least_gap = 1e-4;      // of the pitch
-    constexpr double smoothed_share = 0.2;  // likewise
+    constexpr double smoothed_share = 0.2;  // of the pitch
     constexpr double most_smoothed = 0.3;   // of the columns
     const double pitch = far_field.pitch;
     geometry::Channel channel = geometry::channel_below(fronts, pitch, columns);
     fill_gaps(channel);
-    if (const std::size_t k = channel.narrowest(); !(channel.high[k] - channel.low[k] > least_gap * pitch))
+    if (const std::size_t k = channel.narrowest(); !(channel.high[k] > channel.low[k]))
         throw OptionError("periodic",
                           fmt::format("the layers of neighbouring blades close the channel between them at x = {:.4g}: "
                                       "raise the pitch, or ask for thinner layers",
@@ -117,54 +114,6 @@ std::vector<Point> border_below(std::span<const std::vector<Point>> fronts, cons
     curve.insert(curve.begin(), {domain.lower.x, curve.front().y});
     curve.push_back({domain.upper.x, curve.back().y});
     return curve;
-}
-
-std::vector<layers::Circle> narrow_places(std::span<const std::vector<Point>> fronts,
-                                          std::span<const std::vector<Point>> walls, double pitch) {
-    constexpr double least_share = 0.1;
-    constexpr double reach_share = 0.05;  // of the channel between walls
-    const geometry::Channel open = geometry::channel_below(fronts, pitch, columns),
-                            bare = geometry::channel_below(walls, pitch, columns);
-    std::vector<layers::Circle> places;
-    for (std::size_t k = 0; k < columns; ++k) {
-        const double x = open.middle(k), column = std::floor((x - bare.left) / bare.width);
-        double room = pitch;
-        if (column >= 0 && column < static_cast<double>(columns)) {
-            const auto c = static_cast<std::size_t>(column);
-            room = std::min(room, bare.high[c] - bare.low[c]);
-        }
-        if (!(open.high[k] - open.low[k] < least_share * room)) continue;
-        const double radius = std::max(3 * open.width, reach_share * room);
-        places.push_back({{x, open.low[k]}, radius});
-        places.push_back({{x, open.high[k]}, radius});
-    }
-    return places;
-}
-
-std::vector<SizeSource> sizes_beside_border(std::span<const std::vector<Point>> fronts, std::span<const Point> below,
-                                            double pitch) {
-    constexpr double edge_over_gap = 0.8;
-    std::vector<std::pair<Point, Point>> edges;
-    std::vector<Box> boxes;
-    for (const double shift : {0.0, pitch})
-        for (std::size_t i = 0; i + 1 < below.size(); ++i) {
-            edges.emplace_back(geometry::moved(below[i], shift), geometry::moved(below[i + 1], shift));
-            boxes.push_back(core::bounding_box(edges.back().first, edges.back().second));
-        }
-    const core::BoxTree tree(std::move(boxes));
-    std::vector<SizeSource> sources;
-    for (const std::vector<Point>& front : fronts)
-        for (std::size_t i = 0; i < front.size(); ++i) {
-            const Point a = front[i], b = front[(i + 1) % front.size()];
-            double gap = distance(a, b) / edge_over_gap;
-            for (const Point p : {a, midpoint(a, b), b})
-                gap = tree.min_distance(p, gap, [&](std::size_t k) {
-                    return core::distance_to_segment(p, edges[k].first, edges[k].second);
-                });
-            if (const double size = edge_over_gap * gap; size < (1 - 1e-9) * distance(a, b) && size > 0)
-                sources.push_back({.a = a, .b = b, .size = size});
-        }
-    return sources;
 }
 
 std::vector<SizeSource> repeated_in_row(std::vector<SizeSource> sources, const decoupling::FarField& far_field) {

@@ -8,7 +8,6 @@
 
 #include "decoupling/far_field.hpp"
 #include "layers/layer.hpp"
-#include "layers/stages.hpp"
 #include "pipeline/outer_walls.hpp"
 
 namespace lamina::pipeline {
@@ -17,15 +16,6 @@ namespace lamina::pipeline {
 /// the channel to the copy below, which runs along x ahead and behind. Throws OptionError where layers
 /// close the channel.
 std::vector<Point> border_below(std::span<const std::vector<Point>> fronts, const decoupling::FarField& far_field);
-
-/// Returns circles round the places where fronts leave less than a tenth of the channel between the walls of a blade and
-/// those of the copy below.
-std::vector<layers::Circle> narrow_places(std::span<const std::vector<Point>> fronts,
-                                          std::span<const std::vector<Point>> walls, double pitch);
-
-/// Returns sizes for the edges of fronts that are long for their distance from the border below or above.
-std::vector<SizeSource> sizes_beside_border(std::span<const std::vector<Point>> fronts, std::span<const Point> below,
-                                            double pitch);
 
 /// Returns sources and all of their copies in the row that may count in the domain.
 std::vector<SizeSource> repeated_in_row(std::vector<SizeSource> sources, const decoupling::FarField& far_field);

@@ -10,6 +10,7 @@
 #include <lamina/geometry.hpp>
 #include <lamina/point.hpp>
 
+#include "core/lexicographic_order.hpp"
 #include "geometry/wall_spacing.hpp"
 #include "surface/spline.hpp"
 
@@ -64,11 +65,8 @@ struct SampledCurve {
     CurveSamples samples;
     double turning;  ///< angle by which the curve turns from end to end, in radians, positive to the left
 };
-struct LexicographicOrder {
-    bool operator()(Point a, Point b) const { return lexicographically_less(a, b); }
-};
 /// Sampled curves by the points where they start.
-using SampledCurves = std::map<Point, SampledCurve, LexicographicOrder>;
+using SampledCurves = std::map<Point, SampledCurve, core::LexicographicOrder>;
 
 /// The samples of all curves of an outline, and the angles by which the curves turn. Both lists hold one entry per
 /// curve.

@@ -36,6 +36,7 @@
 
 #include "core/arguments.hpp"
 #include "core/bounding_box.hpp"
+#include "core/lexicographic_order.hpp"
 #include "core/predicates.hpp"
 #include "core/segments.hpp"
 #include "core/text.hpp"
@@ -64,10 +65,6 @@ constexpr double end_snaps = 0.7;
 /// Such vertices stand within this many tolerances of the whole segment. Edges that are bent already may so bend a
 /// little more, and max_bend() leaves room.
 constexpr double beside_tolerances = 2;
-
-struct Lexicographic {
-    bool operator()(Point a, Point b) const { return lexicographically_less(a, b); }
-};
 
 /// An edge, by its index, and a vertex that divides it.
 struct EdgeCut {
@@ -195,9 +192,9 @@ private:
     std::size_t input_count_;
     std::vector<Point> points_;  ///< of the input, then the crossings
     std::vector<SegmentPiece> pieces_;
-    PieceEdges edges_;                                 ///< of the pieces of this round
-    std::vector<double> tolerances_;                   ///< for each edge the smallest of the segments along it
-    std::map<Point, Index, Lexicographic> vertex_at_;  ///< all points, from the first crossing on
+    PieceEdges edges_;                ///< of the pieces of this round
+    std::vector<double> tolerances_;  ///< for each edge the smallest of the segments along it
+    std::map<Point, Index, core::LexicographicOrder> vertex_at_;  ///< all points, from the first crossing on
     EdgeCrossing last_{};
 };
 
