@@ -27,7 +27,7 @@ struct LAMINA_EXPORT CutRegion {
     std::vector<std::uint32_t> far_field_lines;  ///< those that these edges are on, with the region on their left
     std::vector<EstimatedBorder> borders;
     std::size_t separator_vertices = 0;
-    std::vector<std::vector<Segment>> inner_edges{};
+    std::vector<std::vector<Segment>> inner_edges{};  ///< per line inside the region: its edges, in its direction
 
     /// Returns the border of a subdomain.
     LineBorder border(std::size_t subdomain) const;
@@ -48,7 +48,7 @@ struct OuterRegion {
     const SizeField& size;
     const FarField& far_field;
     const DecouplingOptions& options;
-    InnerLines inner{};
+    InnerLines inner{};  ///< lines inside it that become edges of the mesh
 };
 
 /// BesideCuts holds functions that cut_region() calls on each process while it cuts, where they are given.

@@ -54,21 +54,29 @@ std::string outer_layers_text(const OuterLayers& layers) {
     return height ? core::length_text(*height) : core::concat("y+", std::get<YPlus>(layers).y_plus);
 }
 
+/// Returns what `read` makes of the text of an option. Its errors name the option.
+template <class Read>
+auto of_option(const char* name, Read&& read) {
+    try {
+        return read();
+    } catch (const UsageError& error) {
+        throw OptionError(name, error.what());
+    }
+}
+
+/// Returns the positive length that a part of the text of an option gives.
+Length length_of_option(const std::string& part, const char* name) {
+    const Length length = of_option(name, [&] { return core::parse_length(part); });
+    require_in_range(positive_numbers, length.value, name);
+    return length;
+}
+
 /// Adds the option of the tunnel: its height and how far it goes on both ways.
 Option<FarFieldOptions>& add_tunnel(OptionTableBuilder<FarFieldOptions>& table) {
     const auto set = [](FarFieldOptions& options, const OptionValue& value) {
         const std::string text = as_word_or_number(value, "tunnel");
         std::vector<Length> lengths;
-        try {
-            for (const std::string& part : core::split(text, ':')) {
-                lengths.push_back(core::parse_length(part));
-                require_in_range(positive_numbers, lengths.back().value, "tunnel");
-            }
-        } catch (const OptionError&) {
-            throw;
-        } catch (const UsageError& error) {
-            throw OptionError("tunnel", error.what());
-        }
+        for (const std::string& part : core::split(text, ':')) lengths.push_back(length_of_option(part, "tunnel"));
         if (lengths.size() != 1 && lengths.size() != 3)
             throw OptionError("tunnel", "'" + text + "': a tunnel is H, or H:UP:DOWN");
         options.tunnel = lengths[0];
@@ -97,19 +105,11 @@ void add_row(OptionTableBuilder<FarFieldOptions>& table) {
     const auto set = [](FarFieldOptions& options, const OptionValue& value) {
         const std::string text = as_word_or_number(value, "periodic");
         const std::vector<std::string> parts = core::split(text, ',');
-        try {
-            if (parts.size() > 2) throw UsageError("'" + text + "': a row is PITCH, or PITCH,STAGGER");
-            const Length pitch = core::parse_length(parts.front());
-            require_in_range(positive_numbers, pitch.value, "periodic");
-            const double stagger = parts.size() > 1 ? core::parse_numbers(parts[1], ',').front() : 0;
-            require_in_range(numbers_from_to(-180, 180), stagger, "periodic");
-            options.pitch = pitch;
-            options.stagger_deg = stagger;
-        } catch (const OptionError&) {
-            throw;
-        } catch (const UsageError& error) {
-            throw OptionError("periodic", error.what());
-        }
+        if (parts.size() > 2) throw OptionError("periodic", "'" + text + "': a row is PITCH, or PITCH,STAGGER");
+        options.pitch = length_of_option(parts.front(), "periodic");
+        options.stagger_deg =
+            parts.size() > 1 ? of_option("periodic", [&] { return core::parse_number(parts[1]); }) : 0;
+        require_in_range(numbers_from_to(-180, 180), options.stagger_deg, "periodic");
     };
     const auto get = [](const FarFieldOptions& options) -> std::optional<OptionValue> {
         if (!options.pitch) return std::nullopt;
@@ -145,11 +145,7 @@ OptionTable<FarFieldOptions> option_rows() {
         .excludes = {"far-field-outline"};
     const auto set = [](FarFieldOptions& options, const OptionValue& value) {
         const std::string text = as_word(value, "far_field_outline");
-        try {
-            options.outline = parse_outline(text);
-        } catch (const UsageError& error) {
-            throw OptionError("far_field_outline", error.what());
-        }
+        options.outline = of_option("far_field_outline", [&] { return parse_outline(text); });
         options.shape = FarFieldShape::outline;
     };
     const auto get = [](const FarFieldOptions& options) {

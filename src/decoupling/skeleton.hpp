@@ -25,7 +25,7 @@ public:
 
     Lines lines;
 
-    /// Adds a vertex where lines meet. Precondition: there are no lines yet.
+    /// Adds a vertex where lines meet. Precondition: no vertices of lines are numbered yet.
     VertexId add_junction(Point p) { return lines.add_junction(p); }
     /// Adds a closed line along vertices that exist, with the region on its left.
     void add_loop(std::span<const VertexId> loop);

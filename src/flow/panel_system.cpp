@@ -66,7 +66,7 @@ void add_sheet(std::span<double> row, const Body& body, Point p, double times, s
     }
 }
 
-/// Adds the same of a body's copy, in a row of copies that are far away: by two points of Gauss on each panel, and with
+/// Adds what the sheet of a body's copy, far away in a row, gives to the stream function at p: by two points of Gauss on each panel, and with
 /// logarithms of distances over the shift. The integrals of add_sheet() are differences of numbers as large as the square of
 /// the distance.
 void add_far_copy(std::span<double> row, const Body& body, Point p, const Image& copy) {
@@ -247,8 +247,8 @@ double total_circulation(std::span<const PanelSheet> sheets) {
     return total;
 }
 
-/// Returns what the sheets of a row add to the velocity along y far ahead of it, with the opposite sign: the sheets see a
-/// stream that has it besides, so that the stream far ahead is the given one.
+/// Returns the velocity along y that the sheets of a row induce far ahead of it, with the opposite sign: added to the
+/// stream that the sheets see, it makes the stream far ahead the given one.
 double turning_of_row(std::span<const PanelSheet> sheets, double pitch) {
     return total_circulation(sheets) / (2 * pitch);
 }
@@ -275,9 +275,10 @@ PanelSolution solve_panels(std::span<const Contour> contours, double alpha_deg, 
     std::vector<Image> images{{false, 0, 1}};  // the bodies themselves first
     for (const Image& image : images_in(scaled_walls)) images.push_back(image);
     std::vector<std::vector<double>> strengths = solve_strengths(bodies, images, free_stream(alpha_deg));
-    PanelSolution solution{make_sheets(contours, bodies, strengths.front()), {}, walls};
+    const std::vector<PanelSheet> in_stream = make_sheets(contours, bodies, strengths.front());
+    PanelSolution solution{in_stream, {}, walls};
     if (walls.pitch) {
-        const double given = turning_of_row(solution.sheets, *walls.pitch),
+        const double given = turning_of_row(in_stream, *walls.pitch),
                      by_unit = turning_of_row(make_sheets(contours, bodies, strengths.back()), *walls.pitch);
         std::vector<double> turned = strengths.front();
         add_multiple(given / (1 - by_unit), strengths.back(), turned);
@@ -288,7 +289,6 @@ PanelSolution solve_panels(std::span<const Contour> contours, double alpha_deg, 
     const std::size_t n = bodies.size();
     std::vector<double> matrix(n * n);
     std::vector<std::vector<double>> circulations{std::vector<double>(n)};
-    const std::vector<PanelSheet> in_stream = make_sheets(contours, bodies, strengths.front());
     for (std::size_t e = 0; e < n; ++e) circulations[0][e] = -circulation(in_stream[e]);
     for (std::size_t turned = 0; turned < n; ++turned) {
         const std::vector<PanelSheet> sheets = make_sheets(contours, bodies, strengths[1 + turned]);

@@ -64,8 +64,8 @@ std::vector<double> heights_at_vertices(std::span<const RayVertex> outline, std:
     return result;
 }
 
-/// Adds the rays of a closed outline that has no layers or is straight in the domain: normals of its straight parts, and
-/// bisectors at its corners.
+/// Adds the rays of an outer wall or of an obstacle, as a closed outline: normals of its straight parts, and bisectors at
+/// its corners, of which those of outer walls are beyond the domain.
 void add_outline(const std::vector<Point>& p, RaySet& set) {
     for (std::size_t i = 0; i < p.size(); ++i) {
         const Point before = unit(p[i] - p[i > 0 ? i - 1 : p.size() - 1]);

@@ -36,6 +36,7 @@ layers::BorderOptions border_with_sources(layers::BorderOptions border, std::spa
 Geometry part_in_domain(Geometry geometry, const CaseOptions& options);
 
 /// Returns the sizes with edges short enough for a tunnel or a row of blades, where they do not say how long edges may be.
-SizingOptions sizes_in_tunnel(SizingOptions sizing, const FarFieldOptions& far_field, double chord, double fineness);
+SizingOptions sizes_between_borders(SizingOptions sizing, const FarFieldOptions& far_field, double chord,
+                                    double fineness);
 
 }  // namespace lamina::pipeline

@@ -439,10 +439,6 @@ void add_line_markers(const LineGraph& graph, std::span<const InternalLine> line
     }
 }
 
-bool has_two_sided(std::span<const InternalLine> lines) {
-    return std::any_of(lines.begin(), lines.end(), [](const InternalLine& line) { return line.two_sided; });
-}
-
 namespace {
 
 /// The cells at the vertices of two-sided lines, and the copy of the vertex that each of them has.

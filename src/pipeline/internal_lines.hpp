@@ -54,9 +54,6 @@ decoupling::InnerLines inner_lines(const LineGraph& graph, std::span<const Inter
 void add_line_markers(const LineGraph& graph, std::span<const InternalLine> lines,
                       std::span<const std::vector<Segment>> inner_edges, std::vector<Marker>& markers);
 
-/// Returns whether any line has two sides.
-bool has_two_sided(std::span<const InternalLine> lines);
-
 /// Doubles the vertices of two-sided lines, but for their free ends: their markers become walls that hold both sides.
 /// Vertices that are added come last.
 void split_two_sided(std::span<const InternalLine> lines, Mesh& mesh, std::vector<Segment>& constraints);

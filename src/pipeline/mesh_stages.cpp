@@ -135,6 +135,19 @@ void complete_markers(const FittedLayer& fitted, const layers::Layer& layer, con
     split_far_field(points, markers, fitted.conditions.alpha_deg);
 }
 
+/// Doubles the vertices of two-sided lines, and checks the mesh as a whole: pieces know no lines. The summary of
+/// walls stays that of the bodies, since lines with two sides have no layers.
+void complete_lines(const CaseOptions& options, MadeMesh& made) {
+    MeshResult& result = made.result;
+    split_two_sided(options.lines, result.mesh, made.constraints);
+    result.mesh.constraints = made.constraints;
+    WallSummary walls = std::move(result.check.walls);
+    result.check = check_mesh(result.mesh, {.min_angle_deg = options.refine.min_angle_deg,
+                                            .first_heights = first_heights_of_markers(result, result.mesh.markers)});
+    result.check.walls = std::move(walls);
+    require_valid(result.check);
+}
+
 }  // namespace
 
 MadeMesh make_mesh(const FittedLayer& fitted, const CaseOptions& options, MeshDriver& driver, StageClock& clock) {
@@ -149,13 +162,11 @@ MadeMesh make_mesh(const FittedLayer& fitted, const CaseOptions& options, MeshDr
     clock.end(&StageSeconds::layers);
 
     clock.begin("sizing");
-    const bool in_row = fitted.far_field.pitch > 0;
-    std::vector<std::vector<Point>> loops = border_loops(layer);
-    if (in_row) loops = repeated_in_row(std::move(loops), fitted.far_field);
-    const SizeField size = sizing::make_size_field(loops, fitted.requests.sources, options.sizing,
-                                                   fitted.conditions.chord, fitted.far_field.box());
-    const RegionBorders region =
-        in_row ? close_row(layer, fitted.below, fitted.far_field, size) : close_domain(layer, fitted.far_field, size);
+    const SizeField size =
+        sizing::make_size_field(repeated_in_row(border_loops(layer), fitted.far_field), fitted.requests.sources,
+                                options.sizing, fitted.conditions.chord, fitted.far_field.box());
+    const RegionBorders region = fitted.far_field.pitch > 0 ? close_row(layer, fitted.below, fitted.far_field, size)
+                                                            : close_domain(layer, fitted.far_field, size);
     std::optional<RunEstimate> estimate;
     driver.lead([&] {
         estimate = estimate_within_limits(options.refine, options.sizing.gradation, layer, region, size,
@@ -200,16 +211,7 @@ MadeMesh make_mesh(const FittedLayer& fitted, const CaseOptions& options, MeshDr
     require_made_within(budget, pieces.counts);
     result.mesh = std::move(pieces.mesh);
     result.mesh.markers = std::move(markers);
-    if (!options.lines.empty()) {
-        if (has_two_sided(options.lines)) split_two_sided(options.lines, result.mesh, made.constraints);
-        result.mesh.constraints = made.constraints;
-        WallSummary walls = std::move(result.check.walls);  // of bodies: lines with two sides have no layers
-        result.check =
-            check_mesh(result.mesh, {.min_angle_deg = options.refine.min_angle_deg,
-                                     .first_heights = first_heights_of_markers(result, result.mesh.markers)});
-        result.check.walls = std::move(walls);
-        require_valid(result.check);
-    }
+    if (!options.lines.empty()) complete_lines(options, made);
     summarize_cells(layer, pieces.cells, result);
     summarize_refinement(pieces.summary, result);
     driver.lead([&] {

@@ -235,7 +235,8 @@ Geometry part_in_domain(Geometry geometry, const CaseOptions& options) {
     return blade_row(std::move(geometry), in_units(*domain.pitch, chord), domain.stagger_deg);
 }
 
-SizingOptions sizes_in_tunnel(SizingOptions sizing, const FarFieldOptions& far_field, double chord, double fineness) {
+SizingOptions sizes_between_borders(SizingOptions sizing, const FarFieldOptions& far_field, double chord,
+                                    double fineness) {
     constexpr double edges_across = 20;
     const std::optional<Length>& height = far_field.pitch ? far_field.pitch : far_field.tunnel;
     if (height && !sizing.far_size)

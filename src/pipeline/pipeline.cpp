@@ -92,11 +92,10 @@ PreparedWalls prepare_walls(const Geometry& given, const CaseOptions& options, c
 
 /// Runs all stages on a geometry.
 MadeMesh run(const Geometry& whole, CaseOptions options, MeshDriver& driver, StageClock& clock) {
-    const bool is_part = options.far_field.symmetry || options.far_field.pitch;
-    const Geometry part = is_part ? part_in_domain(whole, options) : Geometry{};
-    const Geometry& given = is_part ? part : whole;
+    const Geometry given = part_in_domain(whole, options);
     const ReferenceConditions conditions = reference_conditions(options.conditions, reference_box(given));
-    options.sizing = sizes_in_tunnel(std::move(options.sizing), options.far_field, conditions.chord, options.fineness);
+    options.sizing =
+        sizes_between_borders(std::move(options.sizing), options.far_field, conditions.chord, options.fineness);
     const std::vector<SizeSource> along_lines = sizes_along(options.lines);
     options.sizing.sources.insert(options.sizing.sources.end(), along_lines.begin(), along_lines.end());
     const WorkBudget budget{options.limits, driver.cost()};

@@ -81,11 +81,19 @@ std::vector<double> smooth_curve(const Lane& lane, double smoothed_columns) {
     return y;
 }
 
-/// Returns the range of whole numbers of pitches by which a box may be moved to count in the domain.
-std::pair<int, int> copies_that_count(const Box& box, const decoupling::FarField& far_field) {
+/// Adds the copies of items, moved by whole numbers of pitches, that may count in the domain; none outside a row.
+template <class Item, class BoxOf, class Moved>
+void add_copies(const decoupling::FarField& far_field, BoxOf&& box_of, Moved&& moved, std::vector<Item>& items) {
+    if (!(far_field.pitch > 0)) return;
     const Box domain = far_field.box();
-    return {static_cast<int>(std::floor((domain.lower.y - box.upper.y) / far_field.pitch)),
-            static_cast<int>(std::ceil((domain.upper.y - box.lower.y) / far_field.pitch))};
+    const std::size_t n = items.size();
+    for (std::size_t i = 0; i < n; ++i) {
+        const Box box = box_of(items[i]);
+        const auto first = static_cast<int>(std::floor((domain.lower.y - box.upper.y) / far_field.pitch)),
+                   last = static_cast<int>(std::ceil((domain.upper.y - box.lower.y) / far_field.pitch));
+        for (int k = first; k <= last; ++k)
+            if (k != 0) items.push_back(moved(Item(items[i]), k * far_field.pitch));
+    }
 }
 
 }  // namespace
@@ -117,28 +125,22 @@ std::vector<Point> border_below(std::span<const std::vector<Point>> fronts, cons
 }
 
 std::vector<SizeSource> repeated_in_row(std::vector<SizeSource> sources, const decoupling::FarField& far_field) {
-    const std::size_t n = sources.size();
-    for (std::size_t i = 0; i < n; ++i) {
-        const auto [first, last] = copies_that_count(bounding_box(sources[i]), far_field);
-        for (int k = first; k <= last; ++k) {
-            if (k == 0) continue;
-            SizeSource copy = sources[i];
-            copy.a = geometry::moved(copy.a, k * far_field.pitch);
-            copy.b = geometry::moved(copy.b, k * far_field.pitch);
-            sources.push_back(copy);
-        }
-    }
+    add_copies(
+        far_field, [](const SizeSource& source) { return bounding_box(source); },
+        [](SizeSource source, double shift) {
+            source.a = geometry::moved(source.a, shift);
+            source.b = geometry::moved(source.b, shift);
+            return source;
+        },
+        sources);
     return sources;
 }
 
 std::vector<std::vector<Point>> repeated_in_row(std::vector<std::vector<Point>> loops,
                                                 const decoupling::FarField& far_field) {
-    const std::size_t n = loops.size();
-    for (std::size_t i = 0; i < n; ++i) {
-        const auto [first, last] = copies_that_count(core::bounding_box(loops[i]), far_field);
-        for (int k = first; k <= last; ++k)
-            if (k != 0) loops.push_back(geometry::moved(loops[i], k * far_field.pitch));
-    }
+    add_copies(
+        far_field, [](const std::vector<Point>& loop) { return core::bounding_box(loop); },
+        [](const std::vector<Point>& loop, double shift) { return geometry::moved(loop, shift); }, loops);
     return loops;
 }
 

@@ -17,7 +17,7 @@ namespace lamina::pipeline {
 /// close the channel.
 std::vector<Point> border_below(std::span<const std::vector<Point>> fronts, const decoupling::FarField& far_field);
 
-/// Returns sources and all of their copies in the row that may count in the domain.
+/// Returns sources and all of their copies in the row that may count in the domain; outside a row the sources alone.
 std::vector<SizeSource> repeated_in_row(std::vector<SizeSource> sources, const decoupling::FarField& far_field);
 
 /// Returns closed loops and all of their copies in the row that may count in the domain.

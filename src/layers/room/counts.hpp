@@ -12,7 +12,7 @@ namespace lamina::layers {
 /// cell between neighbouring rays is positively oriented, and the fronts are simple, disjoint from each other and, except
 /// at rays without layers, from the walls.
 std::vector<std::uint32_t> layer_counts(const RaySet& set, const LayerHeights& heights);
-/// Returns the same from these numbers on, which are at most those of the columns.
+/// Returns these numbers, which are at most those of the columns, lowered in the same way.
 std::vector<std::uint32_t> layer_counts(const RaySet& set, const LayerHeights& heights,
                                         std::vector<std::uint32_t> counts);
 
