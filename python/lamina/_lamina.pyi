@@ -6,6 +6,7 @@ from numpy import ndarray
 
 version: str
 proved_min_angle: float
+marker_kinds: tuple[str, ...]
 
 class Mesh:
     def points(self) -> ndarray: ...

@@ -17,7 +17,7 @@ from ._arrays import immutable, index_array, points_array
 from ._errors import MeshWarning
 
 #: The kinds of markers, in the order of the C++ enumeration.
-_KINDS = ("wall", "far_field", "symmetry", "other", "periodic", "internal")
+_KINDS = _lamina.marker_kinds
 
 
 @dataclass(frozen=True)

@@ -160,9 +160,9 @@ function followSymbols(symbols, references, cells, addVertex, addCell) {
 
 // Returns the mesh: points (x, y of each vertex), triangles and quads (vertices of each cell, counter-clockwise), and
 // per cell, triangles before quads, region (0 layer, 1 elsewhere), piece and layer, or null. Markers have name, kind
-// ("wall", "far field", "symmetry", "other", "internal") and edges (pairs of vertices). `walls` has the vertices of each body and
-// the first heights over them; `growth` is a histogram. The numbers of vertices and cells are those of the mesh that
-// was packed.
+// ("wall", "far field", "symmetry", "other", "periodic", "internal") and edges (pairs of vertices). `walls` has the
+// vertices of each body and the first heights over them; `growth` is a histogram. The numbers of vertices and cells
+// are those of the mesh that was packed.
 export async function decodeMesh(base64) {
   const read = arrayReader(await inflated(base64));
   const [version, pointCount, triangleCount, quadCount] = read.next();

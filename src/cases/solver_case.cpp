@@ -142,8 +142,8 @@ double largest_circle(const Mesh& mesh, const std::vector<std::string>& walls) {
     return core::pi * radius * radius;
 }
 
-/// Returns the direction in which the rear of the rearmost wall points, in degrees: from the middle of its vertices about a
-/// tenth of the chord ahead of its rearmost vertex.
+/// Returns the direction in which the rear of the rearmost wall points, in degrees: from the middle of its vertices
+/// about a tenth of the chord ahead of its rearmost vertex. Throws MeshError where no wall has edges.
 double exit_angle(const Mesh& mesh, const std::vector<std::string>& walls, double chord) {
     constexpr double nearest = 0.05, farthest = 0.15;  // in chords
     Point rear{-HUGE_VAL, 0};
@@ -156,6 +156,7 @@ double exit_angle(const Mesh& mesh, const std::vector<std::string>& walls, doubl
                 rearmost = &marker;
             }
     }
+    if (rearmost == nullptr) throw MeshError("a case of a row of blades needs a mesh with a wall that has edges");
     Point sum{};
     double count = 0;
     for (const Segment& edge : rearmost->edges) {
@@ -166,14 +167,13 @@ double exit_angle(const Mesh& mesh, const std::vector<std::string>& walls, doubl
         ++count;
     }
     const Point along = count > 0 ? rear - (1 / count) * sum : Point{1, 0};
-    return along.x > 0 ? std::atan(along.y / along.x) * 180 / core::pi : 0;
+    return along.x > 0 ? core::atan2_reproducible(along.y, along.x) * 180 / core::pi : 0;
 }
 
 /// Returns the row of blades that a mesh with periodic borders is a part of. Throws MeshError where the mesh has no inlet
 /// and outlet.
 std::optional<BladeRow> row_of(const Mesh& mesh, const CaseFlow& flow) {
-    std::optional<mesh::PeriodicMismatch> mismatch;
-    const auto pair = mesh::find_periodic_pair(mesh.points, mesh.markers, mismatch);
+    const auto [pair, mismatch] = mesh::find_periodic_pair(mesh.points, mesh.markers);
     if (mismatch) throw MeshError(mismatch->reason, mismatch->at);
     if (!pair) return std::nullopt;
     if (!is_one_of(inlet_name, flow.far_fields) || !is_one_of(outlet_name, flow.far_fields) ||

@@ -12,6 +12,7 @@
 #include <lamina/solver_case.hpp>
 #include <lamina/transfer.hpp>
 
+#include "core/temporary_folder.hpp"
 #include "io/formats.hpp"
 #include "io/su2_restart.hpp"
 
@@ -30,11 +31,13 @@ struct InitialField {
 
 std::vector<InitialField> initial_fields(const fs::path& folder) {
     std::vector<InitialField> fields;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder / "0")) {
-        InitialField field{entry.path(), entry.path().filename().string(), read_file(entry.path())};
+    for (const std::string& name : core::names_in(folder / "0")) {
+        const fs::path file = folder / "0" / name;
+        InitialField field{file, name, read_file(file)};
         field.is_vector = field.text.find("volVectorField") != std::string::npos;
         fields.push_back(std::move(field));
     }
+    if (fields.empty()) throw IoError((folder / "0").string(), "holds no fields of a case");
     std::sort(fields.begin(), fields.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
     return fields;
 }

@@ -28,7 +28,7 @@ double stream_speed(const CaseFlow& flow) { return flow.mach * std::sqrt(heat_ra
 /// number up to 1 has so much mass in so narrow a stream, it is 1.
 double exit_mach(double mach, double alpha_deg, double exit_deg) {
     constexpr int halvings = 60;
-    const auto mass = [](double m) { return m / std::pow(1 + 0.5 * (heat_ratio - 1) * m * m, 3); };
+    const auto mass = [](double m) { return m / core::pow_reproducible(1 + 0.5 * (heat_ratio - 1) * m * m, 3); };
     const double wanted =
         mass(mach) * core::cos_reproducible(core::radians(alpha_deg)) / core::cos_reproducible(core::radians(exit_deg));
     double low = 0, high = 1;
@@ -48,7 +48,7 @@ std::string row_conditions(const CaseFlow& flow, const BladeRow& row) {
     const double total_temperature = temperature * total_over_static(flow.mach);
     const double exponent = heat_ratio / (heat_ratio - 1);
     const double total_pressure =
-        density * gas_constant * temperature * std::pow(total_over_static(flow.mach), exponent);
+        density * gas_constant * temperature * core::pow_reproducible(total_over_static(flow.mach), exponent);
     const double exit = exit_mach(flow.mach, flow.alpha_deg, row.exit_deg);
     return fmt::format(
         "% Total temperature and pressure at the inlet, and the static pressure at the outlet with which flow without "
@@ -59,8 +59,8 @@ std::string row_conditions(const CaseFlow& flow, const BladeRow& row) {
         "MARKER_OUTLET= ( {}, {:.10g} )\n"
         "MARKER_PERIODIC= ( {}, {}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, {}, {}, 0.0 )",
         row.exit_deg, inlet_name, total_temperature, total_pressure, flow.direction.x, flow.direction.y, outlet_name,
-        total_pressure / std::pow(total_over_static(exit), exponent), row.lower, row.upper, row.translation.x,
-        row.translation.y);
+        total_pressure / core::pow_reproducible(total_over_static(exit), exponent), row.lower, row.upper,
+        row.translation.x, row.translation.y);
 }
 
 constexpr const char* steady_comment =

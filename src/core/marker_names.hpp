@@ -1,6 +1,7 @@
 // The names of markers that all formats, solvers and shells take (docs/reference/formats.md, "Names of markers").
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -12,6 +13,16 @@
 #include <lamina/warning.hpp>
 
 namespace lamina::core {
+
+/// The number of kinds of markers, of which MarkerKind::internal is the last.
+inline constexpr std::size_t marker_kind_count = static_cast<std::size_t>(MarkerKind::internal) + 1;
+
+/// The words for the kinds of markers in files and bindings, in the order of MarkerKind.
+inline constexpr std::array marker_kind_words{"wall", "far_field", "symmetry", "other", "periodic", "internal"};
+static_assert(marker_kind_words.size() == marker_kind_count);
+
+/// Returns the word for a kind.
+inline const char* word_of(MarkerKind kind) { return marker_kind_words[static_cast<std::size_t>(kind)]; }
 
 /// The largest length of the name of a marker in bytes: that of a node of CGNS.
 inline constexpr std::size_t max_marker_name = 32;

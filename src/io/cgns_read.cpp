@@ -410,31 +410,33 @@ void require_sound(const fs::path& file) {
                                                          adf ? " (adf2hdf makes HDF5 of a sound one)" : ""));
 }
 
-}  // namespace
-
-Mesh read_cgns(const fs::path& file) {
+/// Returns what act(reader, its mesh) makes of a file that the library can open. The library is locked meanwhile.
+template <class Act>
+auto with_reader(const fs::path& file, Act act) {
     std::error_code ignored;
     if (!fs::is_regular_file(file, ignored)) throw IoError(file.string(), "cannot read: no such file");
     const std::lock_guard lock(cgns_lock());
     require_sound(file);
-    return CgnsReader(file).read();
+    CgnsReader reader(file);
+    return act(reader, reader.read());
+}
+
+}  // namespace
+
+Mesh read_cgns(const fs::path& file) {
+    return with_reader(file, [](const CgnsReader&, Mesh mesh) { return mesh; });
 }
 
 Solution read_cgns_solution(const fs::path& file, std::span<const FieldRequest> fields) {
-    Solution solution{read_cgns(file), {}};
-    const std::lock_guard lock(cgns_lock());
-    CgnsReader reader(file);
-    reader.read();
-    for (const FieldRequest& field : fields) solution.fields.push_back(reader.field(field));
-    return solution;
+    return with_reader(file, [&](CgnsReader& reader, Mesh mesh) {
+        Solution solution{std::move(mesh), {}};
+        for (const FieldRequest& field : fields) solution.fields.push_back(reader.field(field));
+        return solution;
+    });
 }
 
 std::vector<std::string> cgns_fields(const fs::path& file) {
-    read_cgns(file);
-    const std::lock_guard lock(cgns_lock());
-    CgnsReader reader(file);
-    reader.read();
-    return reader.fields();
+    return with_reader(file, [](CgnsReader& reader, const Mesh&) { return reader.fields(); });
 }
 
 }  // namespace lamina::io

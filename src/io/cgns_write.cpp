@@ -253,8 +253,7 @@ private:
     }
     /// Connects the nodes of each of two periodic borders to those of the other, in all planes.
     void write_periodic_borders() {
-        std::optional<mesh::PeriodicMismatch> mismatch;
-        const auto pair = mesh::find_periodic_pair(mesh_.points, mesh_.markers, mismatch);
+        const auto pair = mesh::find_periodic_pair(mesh_.points, mesh_.markers).pair;
         if (!pair) return;
         std::vector<cgsize_t> first, second;
         for (std::size_t plane = 0; plane < (extrusion_ != nullptr ? extrusion_->planes() : 1); ++plane)

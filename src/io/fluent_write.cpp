@@ -73,6 +73,7 @@ public:
 private:
     /// Orders the faces between cells so that those on lines come last, line by line.
     void put_lines_last() {
+        if (lines_.empty()) return;
         std::vector<std::uint32_t> line_of(faces_.edges.size(), 0);  // from 1
         for (std::size_t k = 0; k < lines_.size(); ++k)
             for (const std::uint32_t edge : mesh::find_edges(mesh_, lines_[k].edges)) {

@@ -237,8 +237,7 @@ private:
 
     /// Writes which nodes of one periodic border are those of the other, moved by an affine map.
     void write_periodic() {
-        std::optional<mesh::PeriodicMismatch> mismatch;
-        const auto pair = mesh::find_periodic_pair(mesh_.points, mesh_.markers, mismatch);
+        const auto pair = mesh::find_periodic_pair(mesh_.points, mesh_.markers).pair;
         if (!pair) return;
         const int slave = groups_[pair->second].entity, master = groups_[pair->first].entity;
         const Point t = pair->translation;

@@ -83,8 +83,7 @@ const Marker* axis_of(const MeshView& mesh) {
 
 /// Returns the periodic borders of a mesh, if it has such.
 std::optional<mesh::PeriodicPair> pair_of(const MeshView& mesh) {
-    std::optional<mesh::PeriodicMismatch> mismatch;
-    return mesh::find_periodic_pair(mesh.points, mesh.markers, mismatch);
+    return mesh::find_periodic_pair(mesh.points, mesh.markers).pair;
 }
 
 /// Returns the markers with the edges of periodic borders in the same order on both, as OpenFOAM wants them.

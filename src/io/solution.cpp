@@ -13,6 +13,7 @@
 #include <lamina/io.hpp>
 
 #include "core/atomic_file.hpp"
+#include "core/file_name.hpp"
 #include "io/field_request.hpp"
 #include "io/formats.hpp"
 #include "io/su2_restart.hpp"
@@ -111,9 +112,9 @@ Solution read_solution(const std::filesystem::path& solution, const std::vector<
     for (const std::string& name : fields) requests.push_back(parse_field(name));
     std::error_code ignored;
     if (std::filesystem::is_directory(solution, ignored)) return read_openfoam_solution(solution, requests, mesh);
-    if (solution.extension() == ".dat" || solution.extension() == ".csv")
-        return read_su2_solution(solution, requests, mesh);
-    const bool is_cgns = solution.extension() == ".cgns";
+    const std::string extension = core::extension_of(solution);
+    if (extension == ".dat" || extension == ".csv") return read_su2_solution(solution, requests, mesh);
+    const bool is_cgns = extension == ".cgns";
     if (!is_cgns && find_format(solution).name != find_format("solution.vtu").name)
         throw UsageError(fmt::format(
             "{}: solutions are VTU and CGNS files, restart files of SU2 (.dat, .csv) or time folders of OpenFOAM",
@@ -125,7 +126,7 @@ Solution read_solution(const std::filesystem::path& solution, const std::vector<
 }
 
 std::vector<std::string> solution_fields(const std::filesystem::path& file) {
-    if (file.extension() == ".cgns") return cgns_names(file);
+    if (core::extension_of(file) == ".cgns") return cgns_names(file);
     return vtu_fields(read_file(file), input_name(file));
 }
 

@@ -14,6 +14,7 @@
 #include <lamina/io.hpp>
 
 #include "core/atomic_file.hpp"
+#include "core/file_name.hpp"
 #include "io/binary_output.hpp"
 #include "io/number_text.hpp"
 
@@ -100,7 +101,7 @@ const std::vector<double>& values_of(const Su2Restart& restart, const std::strin
 
 Su2Restart read_su2_restart(const fs::path& file) {
     const std::string bytes = read_file(file);
-    Su2Restart restart = file.extension() == ".csv" ? read_ascii(bytes, file) : read_binary(bytes, file);
+    Su2Restart restart = core::extension_of(file) == ".csv" ? read_ascii(bytes, file) : read_binary(bytes, file);
     if (restart.names.size() < 2 || restart.names[0] != "x" || restart.names[1] != "y" ||
         std::find(restart.names.begin(), restart.names.end(), "z") != restart.names.end())
         fail(file, "holds no flow in a plane");

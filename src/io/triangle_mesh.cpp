@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <map>
 #include <string>
@@ -26,9 +25,6 @@ namespace lamina::io {
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr std::array<const char*, 5> kind_names{"wall", "far_field", "symmetry", "other",
-                                                "internal"};  // in the order of MarkerKind
 
 fs::path stem_of(const fs::path& file) { return fs::path(file).replace_extension(); }
 
@@ -62,8 +58,8 @@ std::map<long, core::NamedMarker> read_names(const fs::path& file) {
         long number = 0;
         const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), number);
         line.remove_prefix(static_cast<std::size_t>(end - line.data()));
-        for (std::size_t kind = 0; kind < kind_names.size(); ++kind) {
-            const std::string prefix = fmt::format(" {} ", kind_names[kind]);
+        for (std::size_t kind = 0; kind < core::marker_kind_count; ++kind) {
+            const std::string prefix = fmt::format(" {} ", core::marker_kind_words[kind]);
             if (error == std::errc{} && line.starts_with(prefix))
                 names[number] = {std::string(line.substr(prefix.size())), static_cast<MarkerKind>(kind)};
         }
@@ -93,8 +89,7 @@ void write_triangle_mesh(const MeshView& mesh, const fs::path& file) {
             output.markers[edge.a.index()] = output.markers[edge.b.index()] = static_cast<long>(m + 1);
     for (std::size_t m = 0; m < mesh.markers.size(); ++m) {
         const Marker& marker = mesh.markers[m];
-        output.comments.push_back(
-            fmt::format("marker {} {} {}", m + 1, kind_names[static_cast<std::size_t>(marker.kind)], marker.name));
+        output.comments.push_back(fmt::format("marker {} {} {}", m + 1, core::word_of(marker.kind), marker.name));
         output.segments.insert(output.segments.end(), marker.edges.begin(), marker.edges.end());
         output.segment_markers.insert(output.segment_markers.end(), marker.edges.size(), static_cast<long>(m + 1));
     }

@@ -19,6 +19,7 @@
 #include <lamina/error.hpp>
 #include <lamina/files.hpp>
 
+#include "core/marker_names.hpp"
 #include "io/formats.hpp"
 #include "io/mesh_arrays.hpp"
 #include "io/sizes.hpp"
@@ -150,7 +151,7 @@ private:
         if (xml_.has("FieldData/marker_kinds")) {
             const auto kinds = xml_.values<std::uint8_t>("FieldData/marker_kinds", mesh_.markers.size());
             for (std::size_t m = 0; m < kinds.size(); ++m) {
-                if (kinds[m] > static_cast<std::uint8_t>(MarkerKind::internal)) xml_.fail("unknown kind of marker");
+                if (kinds[m] >= core::marker_kind_count) xml_.fail("unknown kind of marker");
                 mesh_.markers[m].kind = static_cast<MarkerKind>(kinds[m]);
             }
         }

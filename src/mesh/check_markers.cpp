@@ -97,9 +97,9 @@ void check_markers(std::span<const Point> points, std::span<const Marker> marker
     }
     for (std::size_t i = 0; i < boundary.size(); ++i)
         if (!marked[i]) report(boundary[i], fmt::format("boundary edge {} is in no marker", edge_text(boundary[i])));
-    std::optional<PeriodicMismatch> mismatch;
-    find_periodic_pair(points, markers, mismatch);
-    if (mismatch) defects.add([&] { return MeshDefect{mismatch->reason, mismatch->at}; });
+    const PeriodicSearch periodic = find_periodic_pair(points, markers);
+    if (const auto& mismatch = periodic.mismatch)
+        defects.add([&] { return MeshDefect{mismatch->reason, mismatch->at}; });
 }
 
 }  // namespace lamina::mesh

@@ -41,15 +41,13 @@ struct Border {
 
 }  // namespace
 
-std::optional<PeriodicPair> find_periodic_pair(std::span<const Point> points, std::span<const Marker> markers,
-                                               std::optional<PeriodicMismatch>& mismatch) {
+PeriodicSearch find_periodic_pair(std::span<const Point> points, std::span<const Marker> markers) {
     std::vector<std::size_t> periodic;
     for (std::size_t m = 0; m < markers.size(); ++m)
         if (markers[m].kind == MarkerKind::periodic && !markers[m].edges.empty()) periodic.push_back(m);
-    if (periodic.empty()) return std::nullopt;
-    const auto refuse = [&](std::string reason, Point at) -> std::optional<PeriodicPair> {
-        mismatch = PeriodicMismatch{std::move(reason), at};
-        return std::nullopt;
+    if (periodic.empty()) return {};
+    const auto refuse = [](std::string reason, Point at) {
+        return PeriodicSearch{.mismatch = PeriodicMismatch{std::move(reason), at}};
     };
     const Marker& one = markers[periodic.front()];
     if (periodic.size() != 2)
@@ -80,7 +78,7 @@ std::optional<PeriodicPair> find_periodic_pair(std::span<const Point> points, st
                           at(a.vertices[a.edges[a.order[i]].first]));
         pair.edges.emplace_back(a.order[i], b.order[i]);
     }
-    return pair;
+    return {.pair = std::move(pair)};
 }
 
 namespace {
@@ -109,8 +107,7 @@ std::vector<T> repeated_values(const std::vector<T>& values, std::size_t triangl
 }  // namespace
 
 Mesh joined_copies(const Mesh& mesh, std::size_t copies) {
-    std::optional<PeriodicMismatch> mismatch;
-    const auto pair = find_periodic_pair(mesh.points, mesh.markers, mismatch);
+    const auto [pair, mismatch] = find_periodic_pair(mesh.points, mesh.markers);
     if (!pair)
         throw UsageError(mismatch ? mismatch->reason : "the mesh has no periodic borders, so it cannot be repeated");
     const std::size_t n = mesh.points.size();

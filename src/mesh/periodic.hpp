@@ -28,11 +28,14 @@ struct PeriodicMismatch {
     Point at{};          ///< a vertex without a twin
 };
 
-/// Finds the pair among the markers; nothing where none is of kind periodic. Where they are no exact copies of each other,
-/// `mismatch` says why, and there is no pair.
-LAMINA_EXPORT std::optional<PeriodicPair> find_periodic_pair(std::span<const Point> points,
-                                                             std::span<const Marker> markers,
-                                                             std::optional<PeriodicMismatch>& mismatch);
+/// What find_periodic_pair() finds: nothing where no marker is of kind periodic.
+struct PeriodicSearch {
+    std::optional<PeriodicPair> pair{};          ///< the borders, if they are exact copies of each other
+    std::optional<PeriodicMismatch> mismatch{};  ///< why they are not
+};
+
+/// Finds the pair among the markers.
+LAMINA_EXPORT PeriodicSearch find_periodic_pair(std::span<const Point> points, std::span<const Marker> markers);
 
 /// Returns so many copies of a mesh with periodic borders, joined where a border of one is that of the next: the mesh
 /// itself, copies above, and as many below or one less. Markers go on through all copies. Regions and layers are kept, and

@@ -73,5 +73,11 @@ TEST(CaseOfARow, NeedsInletAndOutlet) {
     EXPECT_THROW(cases::solver_case_files(FlowSolver::openfoam, mesh, test::some_conditions(), {}), MeshError);
 }
 
+TEST(CaseOfARow, NeedsABlade) {
+    Mesh mesh = row_mesh();
+    mesh.markers.front().edges.clear();
+    EXPECT_THROW(cases::solver_case_files(FlowSolver::openfoam, mesh, test::some_conditions(), {}), MeshError);
+}
+
 }  // namespace
 }  // namespace lamina

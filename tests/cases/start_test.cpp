@@ -82,6 +82,17 @@ TEST(StartOfACase, OpenFoamsFieldsAreReplaced) {
     EXPECT_THROW(start_case_from(FlowSolver::openfoam, folder / "solved", folder / "next", 1.5), Error);
 }
 
+TEST(StartOfACase, NeedsFieldsToReplace) {
+    const TemporaryFolder folder;
+    write_solver_case(FlowSolver::openfoam, case_mesh(), some_conditions(), folder / "solved");
+    write_solver_case(FlowSolver::openfoam, case_mesh(), some_conditions(), folder / "next");
+    write_foam_solution(folder / "solved", "0.25");
+    std::filesystem::remove_all(folder / "next/0");
+    EXPECT_THROW(start_case_from(FlowSolver::openfoam, folder / "solved", folder / "next", 1.5), IoError);
+    std::filesystem::create_directory(folder / "next/0");
+    EXPECT_THROW(start_case_from(FlowSolver::openfoam, folder / "solved", folder / "next", 1.5), IoError);
+}
+
 TEST(StartOfACase, Su2GetsAllFieldsAtTheVertices) {
     const TemporaryFolder folder;
     write_solver_case(FlowSolver::su2, case_mesh(), some_conditions(), folder / "solved");

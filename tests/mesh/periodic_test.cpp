@@ -26,8 +26,7 @@ Mesh square() {
 
 TEST(Periodic, FindsTwins) {
     const Mesh mesh = square();
-    std::optional<mesh::PeriodicMismatch> mismatch;
-    const auto pair = mesh::find_periodic_pair(mesh.points, mesh.markers, mismatch);
+    const auto [pair, mismatch] = mesh::find_periodic_pair(mesh.points, mesh.markers);
     ASSERT_TRUE(pair && !mismatch);
     EXPECT_EQ(std::pair(pair->first, pair->second), std::pair(std::size_t{3}, std::size_t{2}));
     EXPECT_EQ(pair->translation, (Point{0, 1}));

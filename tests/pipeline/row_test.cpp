@@ -30,8 +30,7 @@ CaseOptions row(double pitch, double stagger_deg = 0, double alpha_deg = 0) {
 /// Expects that borders are exact copies, and that three copies of the mesh are one valid mesh.
 void expect_periodic(const Mesh& mesh, double pitch) {
     ASSERT_TRUE(check_mesh(mesh).valid());
-    std::optional<mesh::PeriodicMismatch> mismatch;
-    const auto pair = mesh::find_periodic_pair(mesh.points, mesh.markers, mismatch);
+    const auto [pair, mismatch] = mesh::find_periodic_pair(mesh.points, mesh.markers);
     ASSERT_TRUE(pair) << (mismatch ? mismatch->reason : "no pair");
     EXPECT_EQ(mesh.markers[pair->first].name, "periodic_lower");
     EXPECT_EQ(mesh.markers[pair->second].name, "periodic_upper");

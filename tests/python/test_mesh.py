@@ -177,6 +177,10 @@ def test_meshes_of_arrays():
                                  marker_kinds={"all": "symmetry"})
     check = lamina.check(mesh)
     assert check.valid and check.area == 1 and check.euler_characteristic == 1
+    line = lamina.mesh_of_arrays(points, [[0, 1, 2], [0, 2, 3]],
+                                 {"all": [[0, 1], [1, 2], [2, 3], [3, 0]], "line": [[0, 2]]},
+                                 marker_kinds={"line": "internal"})
+    assert lamina.check(line).valid and line.marker_kinds["line"] == "internal"
     clockwise = lamina.mesh_of_arrays(points, [[0, 2, 1], [0, 2, 3]], {"all": [[0, 1], [1, 2], [2, 3], [3, 0]]})
     assert not lamina.check(clockwise).valid and lamina.check(clockwise).defects[0][0]
     for triangles in ([[0, 1, 4]], [[0, 1, -1]], [[0.5, 1, 2]], [[0, 1]]):
