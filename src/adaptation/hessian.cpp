@@ -11,6 +11,7 @@
 #include "adaptation/hessian.hpp"
 #include "adaptation/vertex_patches.hpp"
 #include "core/parallel.hpp"
+#include "mesh/cell_middle.hpp"
 
 namespace lamina::adaptation {
 
@@ -59,7 +60,7 @@ private:
         std::sort(found_.begin(), found_.end());
         found_.erase(std::unique(found_.begin(), found_.end()), found_.end());
         for (const std::uint32_t cell : found_)
-            samples_.push_back({middle_of_cell(mesh_, cells_.corners(cell)), field_.values[cell]});
+            samples_.push_back({mesh::middle_of_cell(mesh_, cells_.corners(cell)), field_.values[cell]});
     }
 
     const Mesh& mesh_;

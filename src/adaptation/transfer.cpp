@@ -1,11 +1,12 @@
-// Fields on another mesh. Gradients in cells: least squares with weights of the inverse square of distances, which copes
-// with the stretched cells of curved layers. Source: D. J. Mavriplis, AIAA 2003-3986.
+// Carries fields to another mesh. Gradients in cells are those of least squares with weights of the inverse square of
+// distances, which copes with the stretched cells of curved layers. Source: D. J. Mavriplis, AIAA 2003-3986.
 #include <lamina/transfer.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -14,9 +15,12 @@
 #include <lamina/error.hpp>
 
 #include "adaptation/vertex_patches.hpp"
+#include "core/bounding_box.hpp"
 #include "core/box_tree.hpp"
 #include "core/parallel.hpp"
+#include "core/segments.hpp"
 #include "mesh/adjacency.hpp"
+#include "mesh/cell_middle.hpp"
 
 namespace lamina::adaptation {
 
@@ -43,10 +47,9 @@ public:
         Place nearest;
         double least = HUGE_VAL;
         tree_.min_distance(p, HUGE_VAL, [&](std::size_t i) {
-            const Point a = points_[edges_[i].a.index()], along = points_[edges_[i].b.index()] - a;
-            const double span = squared_length(along);
-            const double share = span > 0 ? std::clamp(dot(p - a, along) / span, 0.0, 1.0) : 0.0;
-            const Point at = a + share * along;
+            const Point a = points_[edges_[i].a.index()], b = points_[edges_[i].b.index()];
+            const double share = core::share_along(p, a, b);
+            const Point at = a + share * (b - a);
             const double away = distance(p, at);
             if (away < least) {
                 least = away;
@@ -60,10 +63,8 @@ public:
 private:
     static std::vector<Box> boxes_of(std::span<const Point> points, const std::vector<Segment>& edges) {
         std::vector<Box> boxes(edges.size());
-        for (std::size_t i = 0; i < edges.size(); ++i) {
-            boxes[i].include(points[edges[i].a.index()]);
-            boxes[i].include(points[edges[i].b.index()]);
-        }
+        for (std::size_t i = 0; i < edges.size(); ++i)
+            boxes[i] = core::bounding_box(points[edges[i].a.index()], points[edges[i].b.index()]);
         return boxes;
     }
 
@@ -82,8 +83,8 @@ std::vector<Segment> wall_edges(const Mesh& mesh) {
 std::vector<Point> cell_middles(const Mesh& mesh) {
     std::vector<Point> middles;
     middles.reserve(mesh.triangles.size() + mesh.quads.size());
-    for (const Triangle& triangle : mesh.triangles) middles.push_back(middle_of_cell(mesh, triangle.v));
-    for (const Quad& quad : mesh.quads) middles.push_back(middle_of_cell(mesh, quad.v));
+    for (const Triangle& triangle : mesh.triangles) middles.push_back(mesh::middle_of_cell(mesh, triangle.v));
+    for (const Quad& quad : mesh.quads) middles.push_back(mesh::middle_of_cell(mesh, quad.v));
     return middles;
 }
 
@@ -154,7 +155,8 @@ private:
     }
     /// Moves a place by what parts the two divisions of the wall there. Far from the wall in comparison it stays.
     Point moved_with_walls(Point p) const {
-        constexpr double reach = 100;  // of the move, so that distances change by a hundredth at most
+        // The walls move places that are up to so many moves away, so that distances change by a hundredth at most.
+        constexpr double reach = 100;
         const Point foot = new_walls_.to(p).at;
         const Point move = old_walls_.to(foot).at - foot;
         const double limit = reach * std::sqrt(squared_length(move)), away = distance(p, foot);
@@ -280,12 +282,13 @@ std::vector<SolutionField> transfer(const Solution& solution, const Mesh& mesh) 
                                           [](const SolutionField& field) { return !field.at_cells; });
     if (any_vertices) at_vertices = locator.stencils(mesh.points);
     if (any_cells) at_cells = locator.stencils(cell_middles(mesh));
-    const CellReconstruction cells(solution.mesh);
+    std::optional<CellReconstruction> cells;
+    if (any_cells) cells.emplace(solution.mesh);
     std::vector<SolutionField> result;
     for (const SolutionField& field : solution.fields)
         result.push_back(
             {field.name, field.at_cells,
-             field.at_cells ? values_in_cells(field.values, at_cells, cells) : values_at(field.values, at_vertices)});
+             field.at_cells ? values_in_cells(field.values, at_cells, *cells) : values_at(field.values, at_vertices)});
     return result;
 }
 

@@ -50,12 +50,6 @@ std::vector<char> isotropic_cells(const Mesh& mesh) {
     return isotropic;
 }
 
-Point middle_of_cell(const Mesh& mesh, std::span<const VertexId> corners) {
-    Point sum{0, 0};
-    for (const VertexId v : corners) sum = sum + mesh.points[v.index()];
-    return (1.0 / static_cast<double>(corners.size())) * sum;
-}
-
 void require_fitting(const Mesh& mesh, const SolutionField& field) {
     const std::size_t places = field.at_cells ? mesh.triangles.size() + mesh.quads.size() : mesh.points.size();
     if (field.values.size() != places)

@@ -15,8 +15,6 @@ namespace lamina::adaptation {
 /// isotropic everywhere.
 std::vector<char> isotropic_cells(const Mesh& mesh);
 
-/// Returns the mean of the corners of a cell.
-Point middle_of_cell(const Mesh& mesh, std::span<const VertexId> corners);
 /// Throws OptionError where a field has another number of values than the mesh has vertices or cells.
 void require_fitting(const Mesh& mesh, const SolutionField& field);
 

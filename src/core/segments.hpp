@@ -36,13 +36,15 @@ inline bool encloses_sharp_angle(Point a, Point b) {
     return cross(a, b) > 0 && d > 0 && 4 * d * d > squared_length(a) * squared_length(b);
 }
 
-/// Returns the distance from p to the segment a-b, rounded.
-inline double distance_to_segment(Point p, Point a, Point b) {
+/// Returns where on the segment a-b its nearest point to p is, rounded: from 0 at a to 1 at b.
+inline double share_along(Point p, Point a, Point b) {
     const Point along = b - a;
     const double span = squared_length(along);
-    double t = span > 0 ? dot(p - a, along) / span : 0.0;
-    t = t < 0 ? 0 : t > 1 ? 1 : t;
-    return distance(p, a + t * along);
+    const double t = span > 0 ? dot(p - a, along) / span : 0.0;
+    return t < 0 ? 0 : t > 1 ? 1 : t;
 }
+
+/// Returns the distance from p to the segment a-b, rounded.
+inline double distance_to_segment(Point p, Point a, Point b) { return distance(p, a + share_along(p, a, b) * (b - a)); }
 
 }  // namespace lamina::core

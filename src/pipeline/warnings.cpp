@@ -11,6 +11,7 @@
 
 #include "core/cell_shape.hpp"
 #include "layers/growth_laws.hpp"
+#include "mesh/cell_middle.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/walls.hpp"
 #include "pipeline/area_jumps.hpp"
@@ -46,13 +47,6 @@ CellShape shape_of(const Mesh& mesh, std::size_t cell) {
     return mesh::measure_quad(corner(0), corner(1), corner(2), corner(3));
 }
 
-Point middle_of(const Mesh& mesh, std::size_t cell) {
-    const auto corners = corners_of(mesh, cell);
-    Point sum{};
-    for (const VertexId v : corners) sum = sum + mesh.points[v.index()];
-    return (1.0 / static_cast<double>(corners.size())) * sum;
-}
-
 /// Returns the middle of the cell of a region for which badness(cell) is largest; the first of several.
 template <class Badness>
 Point worst_place(const Mesh& mesh, Region region, Badness badness) {
@@ -65,7 +59,7 @@ Point worst_place(const Mesh& mesh, Region region, Badness badness) {
             worst_badness = b;
         }
     }
-    return middle_of(mesh, worst);
+    return mesh::middle_of_cell(mesh, corners_of(mesh, worst));
 }
 
 /// Returns the place of the wall edge whose cell reaches to the highest layer.
