@@ -21,6 +21,7 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
+#include "core/marker_names.hpp"
 #include "facts.hpp"
 #include "interruption.hpp"
 #include "request.hpp"
@@ -50,10 +51,11 @@ std::shared_ptr<const SizedMesh> background_of(const Background& arrays) {
     return mesh;
 }
 
-/// Throws MeshError where isotropic triangles have angles below the bound that no sharp corner excuses.
-void require_promised_angles(const MeshResult& result) {
+/// Throws MeshError where isotropic triangles have angles below the bound that no sharp corner excuses, unless defects
+/// are allowed or there are lines inside the domain.
+void require_promised_angles(const MeshResult& result, const MeshRequest& request) {
     const std::size_t narrow = result.check.isotropic.unexcused();
-    if (narrow == 0) return;
+    if (request.allow_defects || !request.options.lines.empty() || narrow == 0) return;
     std::optional<Point> at;
     if (!result.check.unexcused_cells.empty() && result.check.unexcused_cells[0] < result.mesh.triangles.size())
         at = result.mesh.points[result.mesh.triangles[result.check.unexcused_cells[0]].v[0].index()];
@@ -78,7 +80,7 @@ nb::tuple generate(const nb::list& given_sections, const OptionValues& values, c
         [&] {
             const Geometry geometry = geometry_of(sections, request.options.geometry);
             result = generate_mesh(geometry, request.options, progress);
-            if (!request.allow_defects && request.options.lines.empty()) require_promised_angles(result);
+            require_promised_angles(result, request);
         },
         stop);
     nb::list warnings = warnings_of(result.warnings);
@@ -187,7 +189,7 @@ SharedMesh mesh_of_arrays(const PointsArgument& points, const RowsArgument<std::
     mesh.quads = cells_of<Quad, 4>(quads);
     mesh.constraints = cells_of<Segment, 2>(constraints);
     for (const auto& [name, kind, edges] : markers) {
-        if (kind < 0 || kind > static_cast<int>(MarkerKind::periodic))
+        if (kind < 0 || kind >= static_cast<int>(core::marker_kind_count))
             throw InputError({}, "a marker has an unknown kind");
         mesh.markers.push_back({name, static_cast<MarkerKind>(kind), cells_of<Segment, 2>(edges)});
     }
@@ -230,6 +232,9 @@ void add_meshes(nb::module_& module) {
         for (const MeshFormat& format : mesh_formats()) names.push_back(format.name);
         return names;
     });
+    nb::list kinds;
+    for (const char* word : core::marker_kind_words) kinds.append(word);
+    module.attr("marker_kinds") = nb::tuple(kinds);
     module.attr("proved_min_angle") = proved_min_angle_deg;
 }
 

@@ -15,6 +15,7 @@
 #include <lamina/threads.hpp>
 #include <lamina/warning.hpp>
 
+#include "core/marker_names.hpp"
 #include "request.hpp"
 #include "values.hpp"
 
@@ -32,9 +33,9 @@ val flat(const std::vector<Item>& items) {
 }
 
 /// The same check that the program makes before it writes a mesh.
-void require_promised_angles(const MeshResult& result) {
+void require_promised_angles(const MeshResult& result, const MeshRequest& request) {
     const std::size_t narrow = result.check.isotropic.unexcused();
-    if (narrow == 0) return;
+    if (request.allow_defects || !request.options.lines.empty() || narrow == 0) return;
     throw MeshError(fmt::format("{} triangle{} beyond the layer {} an angle below the bound (allow_defects returns the "
                                 "mesh all the same)",
                                 narrow, narrow == 1 ? "" : "s", narrow == 1 ? "has" : "have"),
@@ -120,10 +121,9 @@ val HeldMesh::arrays() const {
     arrays.set("constraints", flat<std::uint32_t>(mesh_.constraints));
     val markers = val::array();
     for (const Marker& marker : mesh_.markers) {
-        constexpr const char* kinds[] = {"wall", "far_field", "symmetry", "other", "periodic", "internal"};
         val entry = val::object();
         entry.set("name", marker.name);
-        entry.set("kind", std::string(kinds[static_cast<int>(marker.kind)]));
+        entry.set("kind", std::string(core::word_of(marker.kind)));
         entry.set("edges", flat<std::uint32_t>(marker.edges));
         markers.call<void>("push", entry);
     }
@@ -140,7 +140,7 @@ val generate(const val& inputs, const val& options, const val& progress) {
     Progress report;
     if (!progress.isNull()) report = [&](const ProgressEvent& event) { progress(event.stage); };
     MeshResult result = generate_mesh(strings_of(inputs), request.options, report);
-    if (!request.allow_defects) require_promised_angles(result);
+    require_promised_angles(result, request);
     val reply = val::object();
     reply.set("warnings", warnings_of(result.warnings));
     reply.set("facts", facts_of(result));
