@@ -12,7 +12,8 @@ namespace {
 
 constexpr double chart_width = 420, chart_height = 260, chart_margin = 60;
 
-std::string escaped(const std::string& text) {
+/// Returns the text as it stands between tags.
+std::string markup_of(const std::string& text) {
     std::string result;
     for (const char c : text) result += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
     return result;
@@ -73,7 +74,7 @@ std::string adapt_page(const std::string& title, std::span<const AdaptRound> rou
         "sans-serif;margin:2em}}figure{{display:inline-block;margin:0 2em 1em "
         "0}}svg{{font-size:12px}}td,th{{padding:.2em "
         ".8em;text-align:right}}</style>\n<h1>{0}</h1>\n",
-        escaped(title));
+        markup_of(title));
     text += chart("CL", rounds, &SolvedForces::cl) + chart("CD", rounds, &SolvedForces::cd);
     text += "<table><tr><th>round<th>vertices<th>cells<th>iterations<th>CL<th>CD<th>steady<th>mesh</tr>\n";
     for (std::size_t i = 0; i < rounds.size(); ++i) {
@@ -81,8 +82,7 @@ std::string adapt_page(const std::string& title, std::span<const AdaptRound> rou
         text += fmt::format(
             "<tr><td>{0}<td>{1}<td>{2}<td>{3}<td>{4:.6f}<td>{5:.7f}<td>{6}<td><a "
             "href=\"round_{0}/mesh.html\">look</a></tr>\n",
-            i, vertices, cells, forces.iterations ? std::to_string(*forces.iterations) : "", forces.cl, forces.cd,
-            forces.steady ? "yes" : "no");
+            i, vertices, cells, optional_text(forces.iterations), forces.cl, forces.cd, forces.steady ? "yes" : "no");
     }
     return text + "</table>\n</html>\n";
 }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <system_error>
@@ -23,6 +24,8 @@
 #include "app/adapt_page.hpp"
 #include "app/fingerprint.hpp"
 #include "app/mesh_command_options.hpp"
+#include "app/mesh_run.hpp"
+#include "app/options.hpp"
 #include "app/progress.hpp"
 #include "app/report.hpp"
 #include "app/standard_output.hpp"
@@ -64,7 +67,8 @@ Json json_of(const AdaptRound& round, const std::string& digits) {
     return json;
 }
 
-/// Returns the round that a folder holds; nothing where it was not finished. Throws UsageError where it is of other options.
+/// Returns the round that a folder holds; nothing where it was not finished. Throws UsageError where it is of other
+/// options.
 std::optional<AdaptRound> read_round(const fs::path& folder, const std::string& digits) {
     std::error_code ignored;
     if (!fs::exists(folder, ignored)) return {};
@@ -90,8 +94,6 @@ std::optional<AdaptRound> read_round(const fs::path& folder, const std::string& 
     }
     return round;
 }
-
-std::string optional_text(const auto& value, const char* none = "") { return value ? fmt::format("{}", *value) : none; }
 
 std::string rounds_table(const std::vector<AdaptRound>& rounds) {
     std::string text = "round,vertices,cells,iterations,steady,CL,CD,log10_residual,seconds\n";
@@ -124,25 +126,28 @@ public:
           options_(base_) {}
 
     /// Changes wall spacings and sizes alone, so that the mesh without a solution has so many vertices: its layers keep
-    /// their heights.
-    void aim_at(double vertices) {
-        if (vertices == aim_) return;
+    /// their heights. Returns this mesh, unless it was made for so many before.
+    std::optional<MeshResult> aim_at(double vertices) {
+        std::optional<MeshResult> found;
+        if (vertices == aim_) return found;
         constexpr double good_enough = 0.03;
         constexpr int most_trials = 8;
         double low = 0, high = 0, low_miss = 0, high_miss = 0, best = HUGE_VAL, ratio = 1;
         std::size_t nearest = 0;
         for (int trial = 0; trial < most_trials && best > good_enough; ++trial) {
             const CaseOptions options = at_ratio(ratio);
-            const std::size_t made = generate_mesh(geometry_, options).mesh.points.size();
+            MeshResult result = generate_mesh(geometry_, options);
+            const std::size_t made = result.mesh.points.size();
             const double miss = std::log(static_cast<double>(made) / vertices);
             if (std::abs(miss) < best) {
                 best = std::abs(miss);
                 nearest = made;
                 options_ = options;
+                found = std::move(result);
             }
             (miss < 0 ? low : high) = ratio;
             (miss < 0 ? low_miss : high_miss) = miss;
-            // Between walls that are divided alone, and an area.
+            // The number of vertices grows with a power between 1, that of walls alone, and 2, that of an area.
             constexpr double usual_power = 1.4;
             ratio = low > 0 && high > 0
                         ? low * std::pow(high / low, std::clamp(low_miss / (low_miss - high_miss), 0.1, 0.9))
@@ -153,6 +158,7 @@ public:
             throw OptionError("vertices", fmt::format("cannot be {:.0f}: the nearest mesh of these layers has {}",
                                                       vertices, nearest));
         aim_ = vertices;
+        return found;
     }
     /// Returns the growth of sizes that the number of vertices leads to.
     double gradation() const { return options_.sizing.gradation; }
@@ -177,6 +183,8 @@ private:
     double aim_ = 0;
 };
 
+/// The rounds of one call: those that are done already, and those that it makes. Fingerprints tell whether a round is of
+/// the same options.
 class AdaptLoop {
 public:
     AdaptLoop(const AdaptSettings& settings, const MeshCase& mesh_case, const AdaptSolver& solver, SignalGuard& guard)
@@ -189,8 +197,7 @@ public:
             const bool kept = i < before.size();
             rounds_.push_back(kept ? before[i] : make_round(i));
             if (!case_.quiet) print_result(row_of(i, rounds_.back(), kept));
-            write_file(settings_.folder / "adapt.csv", rounds_table(rounds_));
-            write_file(settings_.folder / "adapt.html", adapt_page(title(), rounds_));
+            if (!kept || i + 1 == before.size() || has_settled()) write_overview();
         }
         if (case_.quiet) return;
         print_result(has_settled()
@@ -217,6 +224,10 @@ private:
         const double wanted = wanted_vertices(round);
         return wanted > 0 ? fmt::format("{:.0f} vertices", wanted) : "as many vertices as the options make";
     }
+    void write_overview() const {
+        write_file(settings_.folder / "adapt.csv", rounds_table(rounds_));
+        write_file(settings_.folder / "adapt.html", adapt_page(title(), rounds_));
+    }
     /// Returns the rounds that are complete already. Throws UsageError where they are not of these options.
     std::vector<AdaptRound> rounds_before() const {
         std::vector<AdaptRound> before;
@@ -230,7 +241,8 @@ private:
     }
     fs::path folder_of(std::size_t round) const { return settings_.folder / fmt::format("round_{}", round); }
 
-    /// Returns for each round the digits of all that it depends on. Rounds may be added later, and the tolerance may change.
+    /// Returns for each round the digits of all that it depends on. Rounds may be added later, and the tolerance may
+    /// change.
     std::vector<std::string> digits_of_rounds() const {
         std::string text = fingerprint(case_) + settings_.identity;
         for (const std::string& field : settings_.fields) text += "\n" + field;
@@ -259,8 +271,8 @@ private:
             std::fputs(fmt::format("lamina: {}\n", text).c_str(), stderr);
     }
 
-    /// Makes a round in a folder of another name, which gets the name of the round in the end. What killed processes have
-    /// left of the round is removed.
+    /// Makes a round in a folder of another name, which gets the name of the round in the end. What killed processes
+    /// have left of the round is removed.
     AdaptRound make_round(std::size_t i) {
         Stopwatch watch;
         const std::string part = folder_of(i).filename().string() + ".part-";
@@ -272,14 +284,16 @@ private:
         fs::create_directories(folder);
 
         if (!mesher_) mesher_.emplace(case_);
-        if (const double wanted = wanted_vertices(i); wanted > 0) mesher_->aim_at(wanted);
-        MeshResult result = i == 0 ? mesher_->make(nullptr) : adapted_mesh(i, folder);
+        MeshResult result = mesh_of_round(i, folder);
+        std::vector<Warning> of_solver = solver_.warnings(result);
+        std::move(of_solver.begin(), of_solver.end(), std::back_inserter(result.warnings));
         print_warnings(result.warnings);
-        require_promised_angles(result.check, case_.allow_defects);
+        require_promised_angles(result.check, case_);
         write_mesh(result.mesh, folder / "mesh.vtu");
         write_page(result.mesh, folder / "mesh.html", {.title = fmt::format("{}, round {}", title(), i)});
         solver_.write_case(result, case_, folder);
         if (i > 0) solver_.start_from(folder_of(i - 1), rounds_[i - 1].forces, folder);
+        require_no_warnings(result.warnings, case_.strict);
 
         AdaptRound round;
         round.vertices = result.mesh.points.size();
@@ -290,6 +304,12 @@ private:
         write_file(folder / marker_name, to_text(json_of(round, digits_[i])));
         fs::rename(folder, folder_of(i));
         return round;
+    }
+    MeshResult mesh_of_round(std::size_t i, const fs::path& folder) {
+        std::optional<MeshResult> found;
+        if (const double wanted = wanted_vertices(i); wanted > 0) found = mesher_->aim_at(wanted);
+        if (i > 0) return adapted_mesh(i, folder);
+        return found ? *std::move(found) : mesher_->make(nullptr);
     }
     MeshResult adapted_mesh(std::size_t i, const fs::path& folder) const {
         SolutionSizeOptions options = settings_.sizes;
@@ -321,6 +341,8 @@ private:
 }  // namespace
 
 void run_adapt(const AdaptSettings& settings, MeshCase mesh_case, AdaptSolver& solver) {
+    require_whole(mesh_case);
+    require_consistent(mesh_case);
     solver.prepare(mesh_case);
     require_inputs(mesh_case);
     solver.require_programs();

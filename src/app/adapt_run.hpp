@@ -27,8 +27,9 @@ struct AdaptSettings {
 };
 
 /// Runs the rounds that are not done yet. Each has a folder FOLDER/round_N, which appears once it is complete and holds
-/// round.json; FOLDER/adapt.csv and FOLDER/adapt.html show them. Throws UsageError where a program is missing, and where the folder has
-/// rounds of other options; what the stages throw ends the loop and leaves the rounds that are complete.
+/// round.json; FOLDER/adapt.csv and FOLDER/adapt.html show them. Throws UsageError where a program is missing, where
+/// options contradict each other, and where the folder has rounds of other options; what the stages throw ends the loop
+/// and leaves the rounds that are complete.
 void run_adapt(const AdaptSettings& settings, MeshCase mesh_case, AdaptSolver& solver);
 
 }  // namespace lamina::app

@@ -1,9 +1,12 @@
 #include "app/adapt_solver.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <map>
 #include <sstream>
+#include <string_view>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -39,6 +42,22 @@ void require_finite(const SolvedForces& forces, const fs::path& file) {
         throw IoError(file.string(), "the solution has diverged: forces are not finite numbers");
 }
 
+/// Returns a number as a count; nothing where it is none.
+std::optional<std::size_t> count_of(const std::optional<double>& number) {
+    constexpr double most = 1e15;  // whole numbers up to here have one double each
+    if (!number || !(*number >= 0 && *number <= most)) return {};
+    return static_cast<std::size_t>(*number);
+}
+
+/// Returns the number that fills a text, whatever the locale; nothing where it is none.
+std::optional<double> number_in(std::string_view text) {
+    if (text.starts_with('+')) text.remove_prefix(1);
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size()) return {};
+    return value;
+}
+
 /// A table of numbers in text. Names of its columns stand in the first line, or in the last line that begins with #.
 class NumberTable {
 public:
@@ -59,12 +78,7 @@ public:
         const auto i = static_cast<std::size_t>(found - names_.begin());
         return i < last_.size() ? last_[i] : "";
     }
-    std::optional<double> last_number(const std::string& name) const {
-        const std::string text = last(name);
-        char* end = nullptr;
-        const double value = std::strtod(text.c_str(), &end);
-        return text.empty() || *end != '\0' ? std::nullopt : std::optional(value);
-    }
+    std::optional<double> last_number(const std::string& name) const { return number_in(last(name)); }
 
 private:
     static std::vector<std::string> fields_of(const std::string& line, char divider) {
@@ -101,6 +115,9 @@ public:
     }
     std::string command() const override { return "Allrun"; }
     void prepare(MeshCase& mesh_case) override { prepare_case(solver_, options_, mesh_case); }
+    std::vector<Warning> warnings(const MeshResult& result) const override {
+        return warnings_of_case(solver_, result, options_);
+    }
     void write_case(const MeshResult& result, const MeshCase& mesh_case, const fs::path& folder) const override {
         write_solver_case(solver_, result.mesh, solver_conditions(result, mesh_case.options), folder, options_);
     }
@@ -116,15 +133,15 @@ public:
         const fs::path file = folder / "result.json";
         const Json result = Json::parse(read_file(file), nullptr, false);
         SolvedForces forces;
-        const auto number = [&](const char* key) {
-            return result.is_object() && result.contains(key) && result[key].is_number() ? result[key].get<double>()
-                                                                                         : NAN;
+        const auto number = [&](const char* key) -> std::optional<double> {
+            if (!result.is_object() || !result.contains(key) || !result[key].is_number()) return {};
+            return result[key].get<double>();
         };
-        forces.cl = number("CL");
-        forces.cd = number("CD");
+        forces.cl = number("CL").value_or(NAN);
+        forces.cd = number("CD").value_or(NAN);
         require_finite(forces, file);
         forces.steady = code == 0;
-        forces.iterations = static_cast<std::size_t>(number("iterations"));
+        forces.iterations = count_of(number("iterations"));
         forces.residual = residual(folder);
         return forces;
     }
@@ -141,7 +158,8 @@ private:
         std::error_code ignored;
         for (const fs::directory_entry& entry :
              fs::directory_iterator(folder / "postProcessing" / "residuals", ignored))
-            blocks[std::strtod(entry.path().filename().c_str(), nullptr)] = entry.path() / "solverInfo.dat";
+            if (const auto first = number_in(entry.path().filename().string()))
+                blocks[*first] = entry.path() / "solverInfo.dat";
         if (blocks.empty() || !fs::exists(blocks.rbegin()->second, ignored)) return {};
         const auto value = NumberTable(blocks.rbegin()->second, ' ').last_number("p_initial");
         return value && *value > 0 ? std::optional(std::log10(*value)) : std::nullopt;
@@ -160,6 +178,7 @@ public:
     std::vector<std::string> usual_fields() const override { return {"Mach", "Pressure"}; }
     std::string command() const override { return fmt::format("{}", fmt::join(words_, " ")); }
     void prepare(MeshCase&) override {}
+    std::vector<Warning> warnings(const MeshResult&) const override { return {}; }
     void write_case(const MeshResult& result, const MeshCase& mesh_case, const fs::path& folder) const override {
         write_mesh(result.mesh, folder / "mesh.su2");
         write_file(folder / "case.toml", dump_case(mesh_case));
@@ -190,8 +209,7 @@ public:
         require_finite(forces, file);
         const std::string steady = table.last("steady");
         forces.steady = steady != "0" && steady != "false" && steady != "no";
-        if (const auto iterations = table.last_number("iterations"); iterations && *iterations >= 0)
-            forces.iterations = static_cast<std::size_t>(*iterations);
+        forces.iterations = count_of(table.last_number("iterations"));
         forces.residual = table.last_number("residual");
         return forces;
     }

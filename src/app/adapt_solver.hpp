@@ -10,18 +10,20 @@
 #include <lamina/pipeline.hpp>
 #include <lamina/solution.hpp>
 #include <lamina/solver_case.hpp>
+#include <lamina/warning.hpp>
 
 #include "app/case.hpp"
 #include "app/run_files.hpp"
 
 namespace lamina::app {
 
-/// What a solver has found on a mesh.
+/// The forces that a solver has computed on one mesh, and whether and how it converged.
 struct SolvedForces {
     double cl = 0, cd = 0;
     bool steady = true;
     std::optional<std::size_t> iterations;  ///< empty: the solver does not say
-    std::optional<double> residual;         ///< the logarithm of base 10 of that of density or pressure, at the end
+    std::optional<double> residual;         ///< the logarithm to base 10 of the last residual of density (SU2) or
+                                            ///< pressure (OpenFOAM)
 };
 
 /// A solver. A round has a folder with the mesh in mesh.vtu, the case and, once it was run, the solution.
@@ -37,6 +39,8 @@ public:
     virtual std::string command() const = 0;
     /// Sets what the solver prefers in the options of meshes. Throws UsageError where they make no case.
     virtual void prepare(MeshCase& mesh_case) = 0;
+    /// Returns what the solver makes of the mesh.
+    virtual std::vector<Warning> warnings(const MeshResult& result) const = 0;
     /// Writes a case beside the mesh.
     virtual void write_case(const MeshResult& result, const MeshCase& mesh_case,
                             const std::filesystem::path& folder) const = 0;

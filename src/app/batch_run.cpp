@@ -116,9 +116,9 @@ void make_mesh(const MeshCase& mesh_case, unsigned jobs, bool strict, Json& reco
     if (options.threads == 0) options.threads = 1;
     const MeshDestination destination = destination_of_outputs(mesh_case);
     MeshResult result = generate_mesh(mesh_case.inputs, options);
-    add_warnings_of_readers(destination, result);
+    add_warnings_of_readers(mesh_case, destination, result);
     record["warnings"] = warnings_report(result.warnings);
-    require_promised_angles(result.check, mesh_case.allow_defects);
+    require_promised_angles(result.check, mesh_case);
     write_outputs(mesh_case, destination, result);
     record["files"] = files_report(mesh_case, destination);
     record["points"] = result.mesh.points.size();

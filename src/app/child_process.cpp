@@ -110,8 +110,12 @@ int run_program_in(const fs::path& folder, const std::vector<std::string>& words
     if (error != 0) throw IoError(words.front(), std::string("cannot be run: ") + std::strerror(error));
     guard.take_along(process);
     int status = 0;
-    while (::waitpid(process, &status, 0) < 0 && errno == EINTR) continue;
+    pid_t ended = 0;
+    while ((ended = ::waitpid(process, &status, 0)) < 0 && errno == EINTR) continue;
+    const int lost = ended < 0 ? errno : 0;
     guard.take_along(0);
+    // Where SIGCHLD is ignored, no exit code is kept.
+    if (lost != 0) throw IoError(words.front(), std::string("its exit code cannot be read: ") + std::strerror(lost));
     return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
 }
 

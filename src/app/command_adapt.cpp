@@ -57,7 +57,6 @@ void adapt(const AdaptArguments& arguments) {
     if (mesh_case.inputs.empty()) throw UsageError("no INPUT: give airfoil files, naca:DIGITS or a case file");
     if (is_given(mesh_case, "gradation")) settings.sizes.gradation = mesh_case.options.sizing.gradation;
     settings.identity = fmt::format("\n{}\n{}", arguments.solver, arguments.turbulence);
-    options.compressible = mesh_case.options.conditions.mach.has_value();
     MeshCase without_outputs = mesh_case;
     without_outputs.outputs.clear();
     for (const auto& [file, option] : files_beside_mesh) (without_outputs.*file).clear();
@@ -65,61 +64,80 @@ void adapt(const AdaptArguments& arguments) {
     run_adapt(settings, without_outputs, *solver);
 }
 
+constexpr const char* group_of_adapt = "Adaptation";
+
+/// Adds the solver and the folder.
+void add_solver_and_folder(CLI::App& command, AdaptArguments& arguments) {
+    command
+        .add_option("--solver", arguments.solver,
+                    "openfoam, su2, or a command, whose words blanks divide and quotes keep together. It runs in the "
+                    "folder of the round, without a shell, where mesh.vtu, mesh.su2, case.toml and, from round 1 on, "
+                    "start.vtu are, and leaves solution.vtu or solution.cgns, and forces.csv with the columns CL, CD "
+                    "and steady (and "
+                    "iterations, residual); {case} stands for the folder")
+        ->required()
+        ->type_name("openfoam|su2|COMMAND")
+        ->group(group_of_adapt);
+    command
+        .add_option("-o,--output", arguments.folder,
+                    "folder of the rounds, round_0, round_1, ..., and of adapt.csv and adapt.html; rounds that are "
+                    "there are kept")
+        ->required()
+        ->type_name("FOLDER")
+        ->group(group_of_adapt);
+}
+
+/// Adds the options of how many rounds there are, and of how many vertices.
+void add_round_options(CLI::App& command, AdaptArguments& arguments) {
+    command.add_option("--rounds", arguments.settings.rounds, "number of meshes at most [5]")
+        ->type_name("N")
+        ->group(group_of_adapt);
+    add_table_option(command, option_table<SolutionSizeOptions>(), "vertices", arguments.sizes["vertices"])
+        ->group(group_of_adapt);
+    command
+        .add_option("--sequence", arguments.sequence,
+                    "numbers of vertices of the first rounds; the last one is that of all further rounds")
+        ->delimiter(',')
+        ->type_name("N,...")
+        ->group(group_of_adapt)
+        ->excludes(command.get_option("--vertices"));
+    command
+        .add_option("--tolerance", arguments.settings.tolerance,
+                    "the loop ends where lift and drag change by a smaller share in two rounds in a row [0.001]")
+        ->type_name("T")
+        ->group(group_of_adapt);
+}
+
+/// Adds the options of what is solved, and what sizes follow.
+void add_goal_options(CLI::App& command, AdaptArguments& arguments) {
+    command
+        .add_option(
+            "--goal", arguments.goal,
+            "what is to be found well; drag and lift need an adjoint solution, which no solver gives yet [fields]")
+        ->type_name("fields|drag|lift")
+        ->group(group_of_adapt);
+    command
+        .add_option("--field", arguments.settings.fields,
+                    "fields to interpolate well, as in lamina sizes [openfoam: mag(U),p; else Mach,Pressure]")
+        ->delimiter(',')
+        ->type_name("NAME[,NAME...]")
+        ->group(group_of_adapt);
+    add_table_option(command, option_table<SolutionSizeOptions>(), "max-change", arguments.sizes["max-change"])
+        ->group(group_of_adapt);
+    add_table_option(command, option_table<SolverCaseOptions>(), "turbulence", arguments.turbulence)
+        ->group(group_of_adapt);
+    command.add_flag("--dry-run", arguments.settings.dry_run, "say what would be done, and do nothing")
+        ->group(group_of_adapt);
+}
+
 }  // namespace
 
 void add_adapt_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand("adapt", "mesh, solve and mesh again by the solution, in one loop");
     auto arguments = std::make_shared<AdaptArguments>();
-    AdaptSettings& settings = arguments->settings;
-    const std::string group = "Adaptation";
-    command
-        ->add_option("--solver", arguments->solver,
-                     "openfoam, su2, or a command, whose words blanks divide and quotes keep together. It runs in the "
-                     "folder of the round, without a shell, where mesh.vtu, mesh.su2, case.toml and, from round 1 on, "
-                     "start.vtu are, and leaves solution.vtu or solution.cgns, and forces.csv with the columns CL, CD "
-                     "and steady (and "
-                     "iterations, residual); {case} stands for the folder")
-        ->required()
-        ->type_name("openfoam|su2|COMMAND")
-        ->group(group);
-    command
-        ->add_option("-o,--output", arguments->folder,
-                     "folder of the rounds, round_0, round_1, ..., and of adapt.csv and adapt.html; rounds that are "
-                     "there are kept")
-        ->required()
-        ->type_name("FOLDER")
-        ->group(group);
-    command->add_option("--rounds", settings.rounds, "number of meshes at most [5]")->type_name("N")->group(group);
-    add_table_option(*command, option_table<SolutionSizeOptions>(), "vertices", arguments->sizes["vertices"])
-        ->group(group);
-    command
-        ->add_option("--sequence", arguments->sequence,
-                     "numbers of vertices of the first rounds; the last one is that of all further rounds")
-        ->delimiter(',')
-        ->type_name("N,...")
-        ->group(group)
-        ->excludes(command->get_option("--vertices"));
-    command
-        ->add_option("--tolerance", settings.tolerance,
-                     "the loop ends where lift and drag change by a smaller share in two rounds in a row [0.001]")
-        ->type_name("T")
-        ->group(group);
-    command
-        ->add_option(
-            "--goal", arguments->goal,
-            "what is to be found well; drag and lift need an adjoint solution, which no solver gives yet [fields]")
-        ->type_name("fields|drag|lift")
-        ->group(group);
-    command
-        ->add_option("--field", settings.fields,
-                     "fields to interpolate well, as in lamina sizes [openfoam: mag(U),p; else Mach,Pressure]")
-        ->delimiter(',')
-        ->type_name("NAME[,NAME...]")
-        ->group(group);
-    add_table_option(*command, option_table<SolutionSizeOptions>(), "max-change", arguments->sizes["max-change"])
-        ->group(group);
-    add_table_option(*command, option_table<SolverCaseOptions>(), "turbulence", arguments->turbulence)->group(group);
-    command->add_flag("--dry-run", settings.dry_run, "say what would be done, and do nothing")->group(group);
+    add_solver_and_folder(*command, *arguments);
+    add_round_options(*command, *arguments);
+    add_goal_options(*command, *arguments);
     arguments->mesh =
         add_mesh_options(*command, {"output", "format", "parts", "span", "span-cells", "span-ends", "wall-distance",
                                     "background", "stream", "wall-data", "report", "html"});

@@ -118,20 +118,20 @@ void require_whole(const MeshCase& mesh_case) {
     if (mesh_case.stream) throw UsageError("option --stream: only 'lamina mesh' writes a mesh while it is made");
 }
 
-void add_warnings_of_readers(const MeshDestination& destination, MeshResult& result) {
+void add_warnings_of_readers(const MeshCase& mesh_case, const MeshDestination& destination, MeshResult& result) {
     std::vector<Warning> of_readers = destination.warnings(result);
     std::move(of_readers.begin(), of_readers.end(), std::back_inserter(result.warnings));
-}
-
-void report_warnings(const MeshCase& mesh_case, const MeshDestination& destination, MeshResult& result) {
-    add_warnings_of_readers(destination, result);
     for (const RunFile& written : destination.files) {
         if (format_name(written.path, write_options(mesh_case)).empty()) continue;
         std::vector<Warning> lost = lost_marker_warnings(result.mesh.markers, written.path, write_options(mesh_case));
         std::move(lost.begin(), lost.end(), std::back_inserter(result.warnings));
     }
+}
+
+void report_warnings(const MeshCase& mesh_case, const MeshDestination& destination, MeshResult& result) {
+    add_warnings_of_readers(mesh_case, destination, result);
     print_warnings(result.warnings);
-    require_promised_angles(result.check, mesh_case.allow_defects || !mesh_case.options.lines.empty());
+    require_promised_angles(result.check, mesh_case);
 }
 
 double write_outputs(const MeshCase& mesh_case, const MeshDestination& destination, const MeshResult& result) {
@@ -192,7 +192,7 @@ void stream_mesh_of_case(const MeshCase& mesh_case, const MeshDestination& desti
         mesh_case.inputs, run.options, [&] { return open_mesh_sink(output, write_options(mesh_case)); },
         [&](const auto& event) { progress.begin(event); });
     print_warnings(streamed.result.warnings);
-    require_promised_angles(streamed.result.check, mesh_case.allow_defects);
+    require_promised_angles(streamed.result.check, mesh_case);
 
     progress.begin({"writing"});
     Stopwatch watch;
@@ -222,7 +222,7 @@ void share_mesh_of_case(const MeshCase& mesh_case, const MeshDestination& destin
     const MeshResult& result = shared.result;
     if (reports) {
         print_warnings(result.warnings);
-        require_promised_angles(result.check, mesh_case.allow_defects);
+        require_promised_angles(result.check, mesh_case);
     }
 
     progress.begin({"writing"});

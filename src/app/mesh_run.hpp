@@ -36,8 +36,8 @@ std::vector<RunFile> files_written(const MeshCase& mesh_case, const MeshDestinat
 /// Throws where an output certainly cannot be written, before the work begins.
 void require_outputs(const MeshCase& mesh_case, const MeshDestination& destination);
 
-/// Adds what the readers of the mesh make of it to the warnings of the result.
-void add_warnings_of_readers(const MeshDestination& destination, MeshResult& result);
+/// Adds what the readers of the mesh make of it, and the markers that its files lose, to the warnings of the result.
+void add_warnings_of_readers(const MeshCase& mesh_case, const MeshDestination& destination, MeshResult& result);
 
 /// Does so, prints all warnings, and throws where angles are not as promised.
 void report_warnings(const MeshCase& mesh_case, const MeshDestination& destination, MeshResult& result);

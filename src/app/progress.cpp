@@ -83,9 +83,9 @@ void print_warnings_of_reader(const Geometry& geometry) {
         }
 }
 
-void require_promised_angles(const MeshCheck& check, bool allow_defects) {
+void require_promised_angles(const MeshCheck& check, const MeshCase& mesh_case) {
     const std::size_t narrow = check.isotropic.unexcused();
-    if (allow_defects || narrow == 0) return;
+    if (mesh_case.allow_defects || !mesh_case.options.lines.empty() || narrow == 0) return;
     throw MeshError(
         fmt::format("{} triangle{} beyond the layer {} an angle below the bound; nothing is written "
                     "(--allow-defects writes the mesh all the same)",

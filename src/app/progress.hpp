@@ -50,9 +50,9 @@ void print_warnings(std::span<const Warning> warnings);
 /// Prints what the reader warned of, for commands that make no mesh.
 void print_warnings_of_reader(const Geometry& geometry);
 
-/// Throws MeshError where isotropic triangles have an angle below the bound that no sharp corner excuses, unless
-/// defects are allowed.
-void require_promised_angles(const MeshCheck& check, bool allow_defects);
+/// Throws MeshError where isotropic triangles have an angle below the bound that no sharp corner excuses, unless the
+/// case allows defects or has lines inside the domain, beside which no angle is promised.
+void require_promised_angles(const MeshCheck& check, const MeshCase& mesh_case);
 
 /// Throws MeshError where there are warnings and `strict` asks for none.
 void require_no_warnings(std::span<const Warning> warnings, bool strict);

@@ -19,17 +19,6 @@ namespace {
 /// The y+ from which on walls get wall functions: the end of the viscous sublayer.
 constexpr double least_y_plus_of_wall_functions = 5;
 
-/// Returns what the solver makes of the mesh and of the speed.
-std::vector<Warning> warnings_of_case(FlowSolver solver, const MeshResult& result, const SolverCaseOptions& options) {
-    std::vector<Warning> warnings = find_solver_warnings(solver, result.mesh);
-    if (solver == FlowSolver::openfoam && !options.compressible) return warnings;
-    std::vector<Warning> of_speed =
-        find_speed_warnings(result.conditions.mach.value_or(default_case_mach), result.flow ? &*result.flow : nullptr,
-                            result.decisions.knows_shocks);
-    std::move(of_speed.begin(), of_speed.end(), std::back_inserter(warnings));
-    return warnings;
-}
-
 /// Sets what the solver prefers where neither a case file nor the command line says otherwise.
 void apply_preferences(FlowSolver solver, MeshCase& mesh_case) {
     // Cells far away cost iterations and change little: drag by 0.2 % (docs/decisions/0038).
@@ -52,6 +41,16 @@ FlowSolver solver_of_name(const std::string& name) {
         names.push_back(known);
     }
     throw UsageError("SOLVER: " + unknown_choice(name, names));
+}
+
+std::vector<Warning> warnings_of_case(FlowSolver solver, const MeshResult& result, const SolverCaseOptions& options) {
+    std::vector<Warning> warnings = find_solver_warnings(solver, result.mesh);
+    if (solver == FlowSolver::openfoam && !options.compressible) return warnings;
+    std::vector<Warning> of_speed =
+        find_speed_warnings(result.conditions.mach.value_or(default_case_mach), result.flow ? &*result.flow : nullptr,
+                            result.decisions.knows_shocks);
+    std::move(of_speed.begin(), of_speed.end(), std::back_inserter(warnings));
+    return warnings;
 }
 
 SolverConditions solver_conditions(const MeshResult& result, const CaseOptions& options) {

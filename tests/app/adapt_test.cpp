@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <thread>
@@ -139,6 +140,76 @@ TEST(AdaptCommand, SaysWhatIsMissingBeforeTheFirstMesh) {
     EXPECT_EQ(plan.exit_code, 0) << plan.err;
     EXPECT_NE(plan.out.find("loop/round_1: 7000 vertices"), std::string::npos) << plan.out;
     EXPECT_EQ(folder.names(), before);
+}
+
+TEST(AdaptCommand, TakesItsCaseAsOtherCommandsDo) {
+    const TemporaryFolder folder;
+    folder.write("so lve.sh", script(""));
+    folder.write("stream.toml", "input = ['naca:0012']\nstream = true\n");
+    std::vector<std::string> streamed = adapt();
+    streamed[1] = "stream.toml";
+    expect_refused(folder, streamed, usage, "only 'lamina mesh' writes a mesh while it is made");
+    folder.write("both.toml", "input = ['naca:0012']\nfirst_height = 1e-4\ny_plus = 1\nreynolds = 1e6\n");
+    std::vector<std::string> contradiction = adapt();
+    contradiction[1] = "both.toml";
+    expect_refused(folder, contradiction, usage, "exclude each other");
+}
+
+TEST(AdaptCommand, StrictRunsEndBeforeTheSolver) {
+    const TemporaryFolder folder;
+    folder.write("so lve.sh", script(""));
+    const std::vector<std::string> coarse{"--first-height", "1e-4", "--layers", "3", "--rounds", "1"};
+    std::vector<std::string> arguments = adapt();
+    arguments.resize(arguments.size() - 4);
+    arguments.insert(arguments.end(), coarse.begin(), coarse.end());
+    const ProgramRun run = run_lamina(folder, arguments);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    ASSERT_NE(run.err.find("lamina: warning:"), std::string::npos) << run.err;
+    std::filesystem::remove_all(folder / "loop");
+    arguments.push_back("--strict");
+    const ProgramRun strict = run_lamina(folder, arguments);
+    EXPECT_EQ(strict.exit_code, mesh_failed) << strict.err;
+    EXPECT_NE(strict.err.find("(--strict)"), std::string::npos) << strict.err;
+    EXPECT_EQ(calls(folder), 1u);
+    EXPECT_FALSE(std::filesystem::exists(folder / "loop/round_0"));
+}
+
+TEST(AdaptCommand, AnglesBesideLinesAreNotPromised) {
+    const TemporaryFolder folder;
+    folder.write("so lve.sh", script(""));
+    std::vector<std::string> arguments = adapt();
+    arguments.resize(arguments.size() - 4);
+    for (const char* word :
+         {"--rounds", "1", "--first-height", "1e-4", "--layers", "8", "--line", "a:-0.2,0.05,1.2,0.06"})
+        arguments.push_back(word);
+    const ProgramRun run = run_lamina(folder, arguments);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+}
+
+TEST(AdaptCommand, CountsThatAreNoneAreLeftOut) {
+    for (const char* iterations : {"inf", "nan", "-3", "1e300", "many"}) {
+        const TemporaryFolder folder;
+        folder.write("so lve.sh", script(std::string("printf 'CL,CD,steady,iterations\\n1.25,0.0125,yes,") +
+                                         iterations + "\\n' >forces.csv\n"));
+        std::vector<std::string> arguments = adapt();
+        arguments.back() = "1";
+        const ProgramRun run = run_lamina(folder, arguments);
+        ASSERT_EQ(run.exit_code, 0) << run.err;
+        const std::vector<std::string> table = lines_of(folder.read("loop/adapt.csv"));
+        EXPECT_NE(table[1].find(",,yes,1.25,0.0125,"), std::string::npos) << iterations << ": " << table[1];
+    }
+}
+
+TEST(AdaptCommand, ALostExitCodeIsNoSuccess) {
+    const TemporaryFolder folder;
+    // Where SIGCHLD is ignored, the system keeps no exit codes of children.
+    folder.write("run.py",
+                 "import os, signal, sys\nsignal.signal(signal.SIGCHLD, signal.SIG_IGN)\n"
+                 "os.dup2(os.open('said', os.O_WRONLY | os.O_CREAT), 2)\nos.execv(sys.argv[1], sys.argv[1:])\n");
+    std::string command = "cd '" + folder.path().string() + "' && python3 run.py " LAMINA_PROGRAM;
+    for (const std::string& word : adapt({}, "true")) command += " '" + word + "'";
+    EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), io_failed);
+    EXPECT_NE(folder.read("said").find("its exit code cannot be read"), std::string::npos) << folder.read("said");
 }
 
 }  // namespace

@@ -76,6 +76,18 @@ TEST(Batch, MissingFoldersAreCreatedUnlessTheCallIsWrong) {
     EXPECT_FALSE(fs::exists(folder / "some/fish")) << "nothing is in it";
 }
 
+TEST(Batch, LinesInsideAreTakenAsInMesh) {
+    const TemporaryFolder folder;
+    const ProgramRun run =
+        run_batch(folder, {"naca:0012", "-o", "{name}.su2", "--summary", "s", "--line", "a:-0.2,0.05,1.2,0.06"});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    const Json record = Json::parse(lines_of(folder.read("s.jsonl")).back());
+    const auto is_loss = [](const Json& warning) {
+        return warning.at("message").get<std::string>().find("a left out") != std::string::npos;
+    };
+    EXPECT_EQ(std::count_if(record["warnings"].begin(), record["warnings"].end(), is_loss), 1) << record["warnings"];
+}
+
 TEST(Batch, NoFileReplacesAnInput) {
     const TemporaryFolder folder;
     const std::string wedge = "wedge\n1 0\n0.5 0.1\n0 0\n0.5 -0.1\n1 0\n";

@@ -10,7 +10,7 @@
 namespace lamina::test {
 
 /// The exit codes of refusals (docs/reference/command-line.md, "Exit codes").
-inline constexpr int usage = 2, bad_input = 3, io_failed = 5;
+inline constexpr int usage = 2, bad_input = 3, mesh_failed = 4, io_failed = 5;
 
 struct ProgramRun {
     int exit_code = -1;  ///< -1 where a signal ended it
