@@ -4,29 +4,48 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
+
+#include <lamina/error.hpp>
 
 #include "core/angles.hpp"
 #include "geometry/element_names.hpp"
 #include "geometry/plain_flap.hpp"
 #include "geometry/source_point.hpp"
+#include "geometry/unite.hpp"
 
 namespace lamina::geometry {
 
 namespace {
 
-/// Moves the points of an element and the places of its warnings.
+/// Moves the points of an element, where its parts begin, and the places of its warnings.
 template <class Map>
 void map_points(Element& e, Map map) {
     for (Point& p : e.points) p = map(p);
+    for (WallPart& part : e.parts) part.begin = map(part.begin);
     for (Warning& warning : e.warnings)
         if (warning.at) warning.at = map(*warning.at);
 }
 
+/// Lets each part of the wall begin where it ended, for an outline that runs the other way.
+void reverse_parts(Element& e) {
+    if (e.parts.empty()) return;
+    const std::vector<std::size_t> part_of_edge = parts_of_edges(e);
+    const std::size_t n = e.points.size();
+    std::vector<WallPart> reversed;
+    for (std::size_t i = 0; i < n; ++i) {
+        const std::size_t part = part_of_edge[(i + n - 1) % n];  // that ends at point i, if another one begins there
+        if (part != part_of_edge[i]) reversed.push_back({e.parts[part].name, e.points[i]});
+    }
+    e.parts = std::move(reversed);
+}
+
 /// Puts an element that was mirrored back into counter-clockwise order; the first point stays first.
 void reverse_order(Element& e) {
+    reverse_parts(e);
     for (std::size_t& corner : e.given_corners) corner = (e.points.size() - corner) % e.points.size();
     std::sort(e.given_corners.begin(), e.given_corners.end());
     std::reverse(e.points.begin() + 1, e.points.end());
@@ -69,6 +88,10 @@ struct Change {
         return fmt::format("mirrored in the line y = {}", m.y);
     }
     std::string operator()(const FlapDeflection& f) const {
+        if (!element.parts.empty())
+            throw InputError({element.file, 0, f.hinge},
+                             fmt::format("element {} is a union of bodies: deflect their flaps before they are joined",
+                                         element.name));
         std::vector<SourcePoint> outline;
         for (std::size_t i = 0; i < element.points.size(); ++i)
             outline.push_back(

@@ -6,12 +6,16 @@
 #include <numeric>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <boost/multiprecision/cpp_int.hpp>
 
 #include <lamina/error.hpp>
 #include <lamina/geometry.hpp>
+
+#include "core/tight_box.hpp"
+#include "geometry/unite.hpp"
 
 namespace lamina {
 namespace {
@@ -88,19 +92,7 @@ Outline random_convex(std::mt19937& random) {
     for (;;) {
         Outline points(5);
         for (Point& p : points) p = {double(coordinate(random)), double(coordinate(random))};
-        std::sort(points.begin(), points.end(), lexicographically_less);
-        points.erase(std::unique(points.begin(), points.end()), points.end());
-        Outline hull;
-        for (int side = 0; side < 2; ++side) {
-            const std::size_t first = hull.size();
-            for (const Point p : points) {
-                while (hull.size() >= first + 2 && cross(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0)
-                    hull.pop_back();
-                hull.push_back(p);
-            }
-            hull.pop_back();
-            std::reverse(points.begin(), points.end());
-        }
+        Outline hull = core::convex_hull(points);
         if (hull.size() >= 3) return hull;
     }
 }
@@ -143,6 +135,45 @@ TEST(Unite, WallsKeepTheNamesOfTheirBodies) {
         EXPECT_TRUE(std::binary_search(element.given_corners.begin(), element.given_corners.end(),
                                        std::size_t(at - element.points.begin())));
     }
+}
+
+/// Returns the middles of the edges of the only element with the names of their parts, sorted.
+std::vector<std::pair<Point, std::string>> named_middles(const Geometry& geometry) {
+    const Element& element = geometry.elements.at(0);
+    const std::vector<std::size_t> parts = geometry::parts_of_edges(element);
+    std::vector<std::pair<Point, std::string>> result;
+    for (std::size_t i = 0; i < element.points.size(); ++i) {
+        const Point middle = midpoint(element.points[i], element.points[(i + 1) % element.points.size()]);
+        result.emplace_back(middle, element.parts.at(parts[i]).name);
+    }
+    std::sort(result.begin(), result.end(),
+              [](const auto& a, const auto& b) { return lexicographically_less(a.first, b.first); });
+    return result;
+}
+
+TEST(Unite, PartsOfTheWallMoveWithTheBody) {
+    const Geometry geometry = united({box(0, 0, 4, 1), box(1, -1, 2, 2), box(3, 0, 5, 1)}, {"a", "b", "c"});
+    const auto before = named_middles(geometry);
+    const auto expect_moved = [&](const Geometry& moved, auto map) {
+        auto expected = before;
+        for (auto& [middle, name] : expected) middle = map(middle);
+        std::sort(expected.begin(), expected.end(),
+                  [](const auto& a, const auto& b) { return lexicographically_less(a.first, b.first); });
+        EXPECT_EQ(named_middles(moved), expected);
+    };
+    const auto change = [&](const std::string& text) {
+        return transformed(geometry, std::vector{parse_transformation(text)});
+    };
+    expect_moved(change("a:shift:2,3"), [](Point p) { return p + Point{2, 3}; });
+    expect_moved(change("a:scale:2"), [](Point p) { return 2 * p; });
+    expect_moved(change("all:rotate:90"), [](Point p) { return perpendicular(p); });
+    expect_moved(change("a:mirror"), [](Point p) { return Point{p.x, -p.y}; });
+    expect_moved(blade_row(geometry, 8, 90), [](Point p) { return perpendicular(p); });
+    for (const WallPart& part : blade_row(geometry, 8, 20).elements[0].parts) {
+        const std::vector<Point>& points = blade_row(geometry, 8, 20).elements[0].points;
+        EXPECT_NE(std::find(points.begin(), points.end(), part.begin), points.end());
+    }
+    EXPECT_THROW(change("a:flap:10:3.5,0.5"), InputError);
 }
 
 TEST(Unite, BodiesThatTouchAlongAnEdgeBecomeOne) {
