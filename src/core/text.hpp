@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 #include <string>
@@ -67,6 +68,9 @@ template <class... Parts>
 std::string concat(const Parts&... parts) {
     return joined_text({TextPart(parts)...});
 }
+
+/// Returns a number with its noun: "1 corner", "2 corners".
+inline std::string counted(std::size_t n, std::string_view noun) { return concat(n, " ", noun, n == 1 ? "" : "s"); }
 
 /// Returns the parts of a text between separators, of which there is one more than separators.
 LAMINA_EXPORT std::vector<std::string> split(const std::string& text, char separator);

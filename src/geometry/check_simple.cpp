@@ -168,8 +168,8 @@ void check_side_by_side(const std::vector<Element>& elements) {
     const Element &inner = elements[first->first], &outer = elements[first->second];
     throw InputError(
         {inner.file, line_near(inner, 0, true), inner.points[0]},
-        fmt::format("'{}' lies inside '{}' ({}); elements must lie side by side, and --union joins those that do "
-                    "not{}",
+        fmt::format("'{}' lies inside '{}' ({}); elements must lie side by side, and --union joins those that do not"
+                    "{}",
                     inner.name, outer.name, outer.file, advice_on_separate_sections(inner, outer)));
 }
 

@@ -47,8 +47,7 @@ OptionTable<GeometryOptions> option_rows() {
     table
         .spec("open-te", "GAP[:DISTANCE]",
               "gap of all trailing edges, in chords of their elements: the sides move apart, which fades over DISTANCE "
-              "chords "
-              "as with XFOIL's TGAP; 1, the default: in proportion to the distance from the nose",
+              "chords as with XFOIL's TGAP; 1, the default: in proportion to the distance from the nose",
               parse_gap, gap_text, member_at(&GeometryOptions::open_te))
         .excludes = {"sharpen-te"};
     table.specs("transform", "ELEMENT:CHANGE",

@@ -1,4 +1,4 @@
-// Source: the commands TGAP of M. Drela's XFOIL (1989), for gaps.
+// Source: M. Drela, XFOIL (1989), command TGAP.
 #include "geometry/tail_shape.hpp"
 
 #include <algorithm>
@@ -44,21 +44,12 @@ OpenOutline opened(const Element& e) {
     OutlineFeatures features;
     find_trailing_edge(e.points, features);
     const std::size_t n = e.points.size();
-    std::size_t first = 0, last = 0;  // the upper and the lower corner
-    if (features.base) {
-        first = features.base->last;
-        last = features.base->first;
-    } else {
-        const auto at = std::find(e.points.begin(), e.points.end(), features.trailing_edge);
-        first = last = static_cast<std::size_t>(at - e.points.begin());
-        const double turning = core::degrees(turning_angles(e.points)[first]);
-        if (turning < sharp_corner_deg)
-            refuse_tail(
-                e, features.trailing_edge,
-                fmt::format("it has no trailing edge to change: its rear is neither a base nor a corner of more than "
-                            "{} degrees",
-                            sharp_corner_deg));
-    }
+    const auto [first, last] = tail_corners(e.points, features);
+    if (first == last && core::degrees(turning_angles(e.points)[first]) < sharp_corner_deg)
+        refuse_tail(e, features.trailing_edge,
+                    fmt::format("it has no trailing edge to change: its rear is neither a base nor a corner of more "
+                                "than {} degrees",
+                                sharp_corner_deg));
     OpenOutline outline;
     outline.trailing_edge = midpoint(e.points[first], e.points[last]);
     const std::size_t count = (last + n - first) % n;
@@ -68,10 +59,7 @@ OpenOutline opened(const Element& e) {
         outline.points.push_back(
             {e.points[i], i < e.lines.size() ? static_cast<std::uint32_t>(e.lines[i]) : 0, is_corner});
     }
-    const auto farther = [&](const SourcePoint& a, const SourcePoint& b) {
-        return squared_length(a.at - outline.trailing_edge) < squared_length(b.at - outline.trailing_edge);
-    };
-    outline.leading_edge = std::max_element(outline.points.begin(), outline.points.end(), farther)->at;
+    outline.leading_edge = e.points[farthest_vertex(e.points, outline.trailing_edge)];
     return outline;
 }
 

@@ -1,5 +1,6 @@
 #include "geometry/trailing_edge.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -72,6 +73,20 @@ void find_trailing_edge(std::span<const Point> outline, OutlineFeatures& feature
     const std::vector<double> turning = turning_angles(outline);
     features.base = find_base(outline, turning);
     features.trailing_edge = trailing_edge_of(outline, turning, features.base);
+}
+
+TailCorners tail_corners(std::span<const Point> outline, const OutlineFeatures& features) {
+    const std::optional<Base>& base = features.base;
+    if (base && features.trailing_edge == midpoint(outline[base->first], outline[base->last]))
+        return {base->last, base->first};
+    const auto corner = std::find(outline.begin(), outline.end(), features.trailing_edge);
+    const auto vertex = static_cast<std::size_t>(corner - outline.begin());
+    return {vertex, vertex};
+}
+
+std::size_t farthest_vertex(std::span<const Point> outline, Point p) {
+    const auto nearer = [p](Point a, Point b) { return squared_length(a - p) < squared_length(b - p); };
+    return static_cast<std::size_t>(std::max_element(outline.begin(), outline.end(), nearer) - outline.begin());
 }
 
 }  // namespace lamina::geometry

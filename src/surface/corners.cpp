@@ -59,18 +59,13 @@ bool is_round_nose(std::span<const Point> outline, std::size_t vertex) {
            growth < core::pow_reproducible(ratio, max_nose_power);
 }
 
-/// Returns the vertex farthest from a point.
-std::size_t farthest_from(std::span<const Point> outline, Point p) {
-    const auto nearer = [p](Point a, Point b) { return squared_length(a - p) < squared_length(b - p); };
-    return static_cast<std::size_t>(std::max_element(outline.begin(), outline.end(), nearer) - outline.begin());
-}
-
 /// Returns whether a vertex is one of the ends of a file, and an end of the chord: of the longest distance in the
 /// outline, but for end_share of it.
 bool is_chord_end(std::span<const Point> outline, std::size_t vertex) {
     if (vertex != 0 && vertex + 1 != outline.size()) return false;
-    const Point tip = outline[vertex], other = outline[farthest_from(outline, tip)];
-    return distance(other, outline[farthest_from(outline, other)]) <= (1 + end_share) * distance(other, tip);
+    const Point tip = outline[vertex], other = outline[geometry::farthest_vertex(outline, tip)];
+    return distance(other, outline[geometry::farthest_vertex(outline, other)]) <=
+           (1 + end_share) * distance(other, tip);
 }
 
 /// Returns, for each vertex, whether it is a corner of a polygon.

@@ -11,6 +11,7 @@
 
 #include "core/bounding_box.hpp"
 #include "core/reproducible_math.hpp"
+#include "core/text.hpp"
 #include "geometry/sharp_corner.hpp"
 #include "geometry/trailing_edge.hpp"
 #include "surface/corners.hpp"
@@ -85,7 +86,7 @@ std::string describe(const Geometry& geometry) {
         fmt::format_to(out, "  spacing        {:.4g} to {:.4g}, neighbours differ by up to a factor {:.4g}\n",
                        s.min_spacing, s.max_spacing, s.max_spacing_ratio);
         fmt::format_to(out, "  turning        at most {:.4g} degrees, at ({:.6g}, {:.6g}); {}\n", s.max_turning_deg,
-                       s.max_turning_at.x, s.max_turning_at.y, counted(s.sharp_corners, "sharp corner"));
+                       s.max_turning_at.x, s.max_turning_at.y, core::counted(s.sharp_corners, "sharp corner"));
         fmt::format_to(out, "  trailing edge  {}, at ({:.6g}, {:.6g})\n", s.blunt_trailing_edge ? "blunt" : "not blunt",
                        s.trailing_edge.x, s.trailing_edge.y);
         out_list("repairs", e.repairs.empty() ? std::vector<std::string>{"none"} : e.repairs);

@@ -1,8 +1,12 @@
 #include "surface/notes.hpp"
 
+#include <string>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "core/reproducible_math.hpp"
+#include "core/text.hpp"
 #include "surface/noise.hpp"
 
 namespace lamina::surface {
@@ -15,7 +19,7 @@ void add_noise_note(Element& e) {
     e.surface_notes.push_back(
         fmt::format("{} zigzag by up to {:.2g} degrees, about {:.1g} in the units of the input: smoothing would help "
                     "(--smooth {:.1g}u)",
-                    counted(noise.vertices, "point"), core::degrees(noise.max_turning), noise.amplitude,
+                    core::counted(noise.vertices, "point"), core::degrees(noise.max_turning), noise.amplitude,
                     smoothing_factor * noise.amplitude));
 }
 

@@ -1,19 +1,9 @@
 // Notes for the user about the points of an element (Element::surface_notes).
 #pragma once
 
-#include <cstddef>
-#include <string>
-
-#include <fmt/format.h>
-
 #include <lamina/geometry.hpp>
 
 namespace lamina::surface {
-
-/// Returns a number with its noun: "1 corner", "2 corners".
-inline std::string counted(std::size_t n, const std::string& noun) {
-    return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s");
-}
 
 /// Adds a note where the points zigzag about the curve they were read from. Precondition: the corners are known.
 void add_noise_note(Element& element);

@@ -108,8 +108,7 @@ void add_numbers_of_points(OptionTableBuilder<SurfaceOptions>& table) {
     table
         .add({"points", OptionKind::word, "UPPER:LOWER[:BASE]",
               "exactly so many wall edges on both sides of each element, or there is no mesh; BASE edges on the base "
-              "of a "
-              "blunt trailing edge (one for 50 of the others)",
+              "of a blunt trailing edge (one for 50 of the others)",
               side_edge_numbers.text(), set_side_edges, side_edges_text})
         .excludes = {"surface-points", "exact-points"};
 }

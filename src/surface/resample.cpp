@@ -16,6 +16,7 @@
 
 #include "core/reproducible_math.hpp"
 #include "core/segments.hpp"
+#include "core/text.hpp"
 #include "core/tight_box.hpp"
 #include "geometry/element_names.hpp"
 #include "geometry/trailing_edge.hpp"
@@ -197,18 +198,13 @@ ChordEnds find_chord_ends(std::span<const Point> outline) {
     geometry::find_trailing_edge(outline, features);
     ChordEnds ends;
     ends.trailing_edge = features.trailing_edge;
-    const auto corner = std::find(outline.begin(), outline.end(), features.trailing_edge);
-    ends.start = ends.end = static_cast<std::size_t>(corner - outline.begin());
-    if (features.base &&
-        features.trailing_edge == midpoint(outline[features.base->first], outline[features.base->last])) {
-        ends.start = features.base->last;
-        ends.end = features.base->first;
-        ends.trailing = {outline[ends.end], outline[ends.start]};
-    } else {
-        ends.trailing = {*corner};
-    }
-    double farthest = 0;
-    for (const Point p : outline) farthest = std::max(farthest, distance(p, features.trailing_edge));
+    const auto [upper, lower] = geometry::tail_corners(outline, features);
+    ends.start = upper;
+    ends.end = lower;
+    ends.trailing = {outline[lower]};
+    if (upper != lower) ends.trailing.push_back(outline[upper]);
+    const Point far = outline[geometry::farthest_vertex(outline, features.trailing_edge)];
+    const double farthest = distance(far, features.trailing_edge);
     for (std::size_t i = outline.size(); i-- > 0;) {
         if (distance(outline[i], features.trailing_edge) < (1 - rounding) * farthest) continue;
         ends.leading.push_back(outline[i]);
@@ -295,8 +291,9 @@ void fix_base(OutlineCurves& curves, const Element& given, std::size_t edges) {
     }
 }
 
-/// Divides the curve through the leading edge there, so that each side has curves of its own.
-void divide_at_leading_edge(OutlineCurves& curves, const Element& given, const ChordEnds& ends) {
+/// Divides the curve through the leading edge there, so that each side has curves of its own. Returns the given point at
+/// which the sides meet: another one where the leading edge was merged with its neighbour.
+std::size_t divide_at_leading_edge(OutlineCurves& curves, const Element& given, const ChordEnds& ends) {
     const Point nose = given.points[ends.nose];
     std::size_t curve = 0, knot = 0;
     double nearest = HUGE_VAL;
@@ -308,7 +305,8 @@ void divide_at_leading_edge(OutlineCurves& curves, const Element& given, const C
                 knot = k;
             }
     std::vector<std::size_t>& knots = curves.knots[curve];
-    if (knot == 0 || knot + 1 == knots.size()) return;
+    const std::size_t meeting_point = knots[knot];
+    if (knot == 0 || knot + 1 == knots.size()) return meeting_point;
     const auto at = [](auto& list, std::size_t i) { return list.begin() + static_cast<std::ptrdiff_t>(i); };
     const std::vector<std::size_t> behind(at(knots, knot), knots.end());
     OutlineCurve second = curves.curves[curve];
@@ -319,6 +317,7 @@ void divide_at_leading_edge(OutlineCurves& curves, const Element& given, const C
     curves.curves.insert(at(curves.curves, curve + 1), std::move(second));
     curves.knots.insert(at(curves.knots, curve + 1), behind);
     curves.starts_at_corner.insert(at(curves.starts_at_corner, curve + 1), false);
+    return meeting_point;
 }
 
 /// Returns the curves of the upper and the lower side with their numbers of edges. Throws OptionError where the trailing
@@ -332,8 +331,8 @@ std::vector<CurveGroup> sides_of(const OutlineCurves& curves, const Element& giv
     };
     if (!starts_at(ends.start) || !starts_at(ends.end))
         throw OptionError("points",
-                          fmt::format("element {} has no corner or base at its trailing edge, where its sides "
-                                      "would begin",
+                          fmt::format("element {} has no corner or base at its trailing edge, where its sides would "
+                                      "begin",
                                       given.name));
     std::vector<CurveGroup> sides{{{}, edges.upper}, {{}, edges.lower}};
     for (std::size_t c = 0; c < curves.curves.size(); ++c) {
@@ -363,7 +362,7 @@ std::vector<CurveGroup> whole_outline(const OutlineCurves& curves, const Element
     if (const std::size_t least = kept + least_edges_of_curve(curves.curves) * all.curves.size(); points < least)
         throw OptionError("exact_points",
                           fmt::format("exactly {} are too few for the {} of element {}: it needs {}", points,
-                                      counted(curves.curves.size(), "corner"), given.name, least));
+                                      core::counted(curves.curves.size(), "corner"), given.name, least));
     all.edges = points - kept;
     return {all};
 }
@@ -476,10 +475,10 @@ ResampledElement resample(const Element& given, std::size_t index, const Resampl
         drop_rounding(stretch, treatment, rounding * scale);
         append_curves(stretch, treatment, outline_curves);
     }
-    const ChordEnds ends = find_chord_ends(given.points);
+    ChordEnds ends = find_chord_ends(given.points);
     if (options.exact_points || options.side_edges) fix_base(outline_curves, given, base_edges(options));
     limit_at_corners(outline_curves, outline, given, index, request, ends);
-    if (options.side_edges) divide_at_leading_edge(outline_curves, given, ends);
+    if (options.side_edges) ends.nose = divide_at_leading_edge(outline_curves, given, ends);
     const SpacingRule rule = make_spacing_rule(request, ends, scale, index, given);
 
     const std::vector<OutlineCurve>& curves = outline_curves.curves;
@@ -505,8 +504,8 @@ ResampledElement resample(const Element& given, std::size_t index, const Resampl
     const auto kept = static_cast<std::size_t>(std::count(treatment.begin(), treatment.end(), EdgeTreatment::keep));
     element.surface_notes.push_back(
         fmt::format("{} points resampled to {}: {}; {}{} kept, edges within {:.2g} of the spline", given.points.size(),
-                    element.points.size(), reason, counted(outline.corners.size(), "corner"),
-                    kept > 0 ? " and " + counted(kept, "given edge") : "", divided.deviation));
+                    element.points.size(), reason, core::counted(outline.corners.size(), "corner"),
+                    kept > 0 ? " and " + core::counted(kept, "given edge") : "", divided.deviation));
     return {std::move(element), std::move(origins)};
 }
 

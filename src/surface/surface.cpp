@@ -11,6 +11,7 @@
 
 #include <lamina/error.hpp>
 
+#include "core/text.hpp"
 #include "geometry/element_names.hpp"
 #include "geometry/symmetry.hpp"
 #include "geometry/trailing_edge.hpp"
@@ -116,7 +117,7 @@ void apply(Plan& plan, Element& element, const Element& given, std::size_t index
     if (plan.straightened > 0)
         element.surface_notes.push_back(
             fmt::format("{} stay straight, since the smooth curve would cross itself or another one",
-                        counted(plan.straightened, "given edge")));
+                        core::counted(plan.straightened, "given edge")));
 }
 
 /// Replaces given edges that are kept beside far shorter new ones, until there are none.

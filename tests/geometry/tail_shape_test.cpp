@@ -119,6 +119,15 @@ TEST(TailShape, FilesAndTransformationsFollow) {
     EXPECT_EQ(e.transformations.size(), 2u);
 }
 
+// The blunt end of a pod is a base, but not the trailing edge.
+TEST(TailShape, ASharpTailBehindABluntPodOpens) {
+    const std::vector<Point> given{{1, 0},      {0.5, 0.1},   {0, 0},       {0.3, -0.2},
+                                   {0.8, -0.2}, {0.8, -0.12}, {0.6, -0.12}, {0.6, -0.05}};
+    const Element e = shaped(element_of_points(given, "pod"), opened(0.01)).elements[0];
+    EXPECT_NEAR(thickness_at(e, 1), 0.01, 1e-12);
+    EXPECT_EQ(std::count(e.points.begin(), e.points.end(), Point{0, 0}), 1);
+}
+
 TEST(TailShape, Refusals) {
     std::vector<Point> round;
     for (int i = 0; i < 60; ++i) round.push_back({std::cos(0.1047 * i), 0.3 * std::sin(0.1047 * i)});

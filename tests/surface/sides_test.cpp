@@ -60,6 +60,23 @@ TEST(Sides, OfEqualNumbersAreEven) {
     }
 }
 
+// A point so near the leading edge that the two become one.
+TEST(Sides, MeetWhereTheLeadingEdgeWasMerged) {
+    Outline outline = shapes::section(0.12, 0, 40);
+    const auto nose = std::min_element(outline.begin(), outline.end(), [](Point a, Point b) { return a.x < b.x; });
+    for (const double above : {1e-6, -1e-6}) {
+        Outline doubled = outline;
+        const auto at = doubled.begin() + (nose - outline.begin()) + (above > 0 ? 0 : 1);
+        doubled.insert(at, *nose + Point{1e-9, above});
+        const Element e = prepared(doubled, sides(80, 60));
+        EXPECT_EQ(e.points.size(), 140u);
+        const auto foremost =
+            std::min_element(e.points.begin(), e.points.end(), [](Point a, Point b) { return a.x < b.x; });
+        const auto tail = std::find(e.points.begin(), e.points.end(), e.features.trailing_edge);
+        EXPECT_EQ((foremost - tail + 140) % 140, 80);
+    }
+}
+
 TEST(Sides, Refusals) {
     EXPECT_THROW(prepared(shapes::ellipse(1, 0.2, 30), sides(40, 40)), OptionError);
     EXPECT_THROW(prepared(shapes::refined(shapes::box(), 2), sides(1, 1)), OptionError);
