@@ -84,6 +84,18 @@ std::string_view trimmed(std::string_view text) {
     return text;
 }
 
+std::string_view without_blanks(std::string_view text) {
+    while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+    while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+    return text;
+}
+
+std::string_view take_line(std::string_view& text) {
+    const std::string_view line = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(line.size() + 1, text.size()));
+    return trimmed(line.substr(0, line.find('\r')));
+}
+
 std::string printable(std::string_view bytes) {
     std::string text;
     while (!bytes.empty()) {

@@ -17,6 +17,12 @@ inline bool is_blank(char c) { return is_space(c) || c == '\n' || c == '\r'; }
 /// Returns the text without white space at both ends.
 std::string_view trimmed(std::string_view text);
 
+/// Returns the text without white space and ends of lines at both ends.
+std::string_view without_blanks(std::string_view text);
+
+/// Returns the line at the start of a text, trimmed, and removes it.
+std::string_view take_line(std::string_view& text);
+
 /// Returns a line with ASCII characters in the place of those that only look like them: spaces for no-break and other
 /// white space of Unicode or Latin-1, minus signs for dashes before digits, as word processors write them. Dashes within
 /// words and numbers ("63-012") stay.

@@ -13,6 +13,7 @@
 
 #include <lamina/error.hpp>
 
+#include "core/text.hpp"
 #include "geometry/characters.hpp"
 #include "geometry/drawings/drawing.hpp"
 #include "geometry/drawings/outlines_of_drawing.hpp"
@@ -21,13 +22,6 @@
 namespace lamina::geometry {
 
 namespace {
-
-/// Returns the line at the start of a text, trimmed, and removes it.
-std::string_view take_line(std::string_view& text) {
-    const std::string_view line = text.substr(0, text.find('\n'));
-    text.remove_prefix(std::min(line.size() + 1, text.size()));
-    return trimmed(line.substr(0, line.find('\r')));
-}
 
 /// Returns whether a text is DXF: group codes and values in turn, of which the first but for comments is a section.
 bool is_dxf(std::string_view text) {
@@ -114,7 +108,7 @@ bool is_json_without_points(std::string_view text) {
 struct Format {
     const char* name;
     const char* advice;
-    std::array<const char*, 2> extensions;
+    std::array<const char*, 2> extensions;  ///< in whatever case; the second may be null
     bool (*is_it)(std::string_view);
     const char* short_name;                                 ///< as Element::format
     Drawing (*read)(std::string_view, const std::string&);  ///< null where it is not read
@@ -123,13 +117,13 @@ struct Format {
 constexpr std::array<Format, 5> formats = {
     {{"a DXF drawing",
       "save it as ASCII with lines, arcs, polylines and splines (explode the rest), or export points",
-      {".dxf", ".DXF"},
+      {".dxf"},
       is_dxf,
       "dxf",
       read_dxf},
      {"an SVG drawing",
       "turn objects to paths and unlink clones, or export points",
-      {".svg", ".SVG"},
+      {".svg"},
       [](std::string_view text) { return text.substr(0, 4096).find("<svg") != std::string_view::npos; },
       "svg",
       read_svg},
@@ -186,9 +180,15 @@ std::optional<std::vector<RawOutline>> read_drawing(std::string_view text, const
     return outlines;
 }
 
+bool is_drawing_format(std::string_view format) {
+    return std::any_of(formats.begin(), formats.end(),
+                       [&](const Format& f) { return f.read != nullptr && f.short_name == format; });
+}
+
 void refuse_unread_drawings(std::string_view text, const std::string& file) {
     if (is_json_without_points(text)) refuse(formats.back(), "", file);
-    const auto is_extension = [&](const char* extension) { return file.ends_with(extension); };
+    const std::string name = core::lower_case(file);
+    const auto is_extension = [&](const char* extension) { return extension != nullptr && name.ends_with(extension); };
     for (const Format& format : formats)
         if (std::any_of(format.extensions.begin(), format.extensions.end(), is_extension))
             refuse(format, format.read != nullptr ? " by its name, but not by what it holds" : "", file);

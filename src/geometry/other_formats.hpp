@@ -15,6 +15,9 @@ namespace lamina::geometry {
 /// which says how to export points, for those without outlines, and for JSON that lists all x and then all y.
 std::optional<std::vector<RawOutline>> read_drawing(std::string_view text, const std::string& file, bool keep_open);
 
+/// Returns whether a format (Element::format) is that of a drawing, whose curves are known.
+bool is_drawing_format(std::string_view format);
+
 /// Throws InputError, which says the same, for a text that cannot be read otherwise, where it is JSON or the extension is
 /// that of one of these.
 void refuse_unread_drawings(std::string_view text, const std::string& file);

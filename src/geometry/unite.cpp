@@ -15,6 +15,7 @@
 
 #include "core/bounding_box.hpp"
 #include "core/polygon.hpp"
+#include "core/text.hpp"
 #include "geometry/inside.hpp"
 
 namespace lamina::geometry {
@@ -108,6 +109,7 @@ struct UnionOutlines {
 UnionOutlines outer_outlines(const Arrangement& arrangement, std::vector<OutlineLoop> loops) {
     UnionOutlines result;
     std::vector<std::vector<Point>> polygons;
+    std::vector<Box> boxes;
     std::vector<OutlineLoop> candidates;
     for (OutlineLoop& loop : loops) {
         const auto vertex = [&](std::size_t i) { return arrangement.points[loop[i].vertex]; };
@@ -117,6 +119,7 @@ UnionOutlines outer_outlines(const Arrangement& arrangement, std::vector<Outline
         }
         std::vector<Point>& polygon = polygons.emplace_back();
         for (std::size_t i = 0; i < loop.size(); ++i) polygon.push_back(vertex(i));
+        boxes.push_back(core::bounding_box(polygon));
         candidates.push_back(std::move(loop));
     }
     for (std::size_t i = 0; i < candidates.size(); ++i) {
@@ -124,7 +127,7 @@ UnionOutlines outer_outlines(const Arrangement& arrangement, std::vector<Outline
         for (std::size_t j = 0; j < candidates.size() && !is_inside; ++j) {
             // A vertex that both have is no proof, and require_no_touching_points() refuses it.
             const Point p = polygons[i].front();
-            is_inside = j != i && core::bounding_box(polygons[j]).contains(p) && contains(polygons[j], p) &&
+            is_inside = j != i && boxes[j].contains(p) && contains(polygons[j], p) &&
                         std::find(polygons[j].begin(), polygons[j].end(), p) == polygons[j].end();
         }
         if (!is_inside) result.outlines.push_back(std::move(candidates[i]));
@@ -182,6 +185,8 @@ Element joined(const Arrangement& arrangement, const Geometry& geometry, const O
         element.samples_of_curve = element.samples_of_curve || other.samples_of_curve;
         if (body == bodies.front()) continue;
         element.points_read += other.points_read;
+        for (const std::string& repair : other.repairs)
+            element.repairs.push_back(other.file == element.file ? repair : core::concat(other.file, ": ", repair));
         element.warnings.insert(element.warnings.end(), other.warnings.begin(), other.warnings.end());
         element.transformations.push_back(fmt::format("joined with {}", other.name));
     }
@@ -212,9 +217,7 @@ Geometry unite(Geometry geometry) {
     result.elements.clear();
     for (auto& [first, element] : elements) result.elements.push_back(std::move(element));
     std::vector<std::string>& notes = result.elements.front().transformations;
-    if (found.pockets > 0)
-        notes.push_back(
-            fmt::format("{} pocket{} that the union encloses filled", found.pockets, found.pockets == 1 ? "" : "s"));
+    if (found.pockets > 0) notes.push_back(core::counted(found.pockets, "pocket") + " that the union encloses filled");
     for (std::size_t e = 0; e < is_shown.size(); ++e)
         if (is_shown[e] == 0) notes.push_back(fmt::format("{} lies inside the union", geometry.elements[e].name));
     return result;

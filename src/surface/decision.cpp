@@ -10,6 +10,7 @@
 
 #include "core/reproducible_math.hpp"
 #include "geometry/element_names.hpp"
+#include "geometry/other_formats.hpp"
 #include "surface/corners.hpp"
 #include "surface/noise.hpp"
 
@@ -240,11 +241,6 @@ Decision decide_smooth(const Element& e, std::size_t index, const ResamplingRequ
     return decision;
 }
 
-/// Returns whether a format (Element::format) is one of curves.
-bool is_drawing(const std::string& format) {
-    return format == "dxf" || format == "svg" || format == "iges" || format == "step";
-}
-
 }  // namespace
 
 bool Decision::keeps_all() const {
@@ -286,9 +282,9 @@ Decision decide(const Element& e, std::size_t index, const ResamplingRequest& re
     if (options.leading_edge_spacing || options.trailing_edge_spacing || has_station)
         return all(EdgeTreatment::spline, "a spacing is requested");
     if (e.samples_of_curve)
-        return all(EdgeTreatment::spline, e.format == "naca"     ? "its formula is known"
-                                          : is_drawing(e.format) ? "its curves are drawn"
-                                                                 : "they were smoothed");
+        return all(EdgeTreatment::spline, e.format == "naca"                      ? "its formula is known"
+                                          : geometry::is_drawing_format(e.format) ? "its curves are drawn"
+                                                                                  : "they were smoothed");
     if (e.format == "naca") return all(EdgeTreatment::keep, "generated points are exact");
     if (e.features.corners.size() == e.points.size())
         return all(EdgeTreatment::spline, "they are the corners of a polygon");

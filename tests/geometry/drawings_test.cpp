@@ -2,7 +2,6 @@
 // run away.
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -14,6 +13,7 @@
 #include "geometry/parse_airfoil.hpp"
 #include "support/drawings.hpp"
 #include "support/geometry_fixtures.hpp"
+#include "support/mutator.hpp"
 
 namespace lamina {
 namespace {
@@ -147,9 +147,9 @@ TEST(Drawings, ConstructionLinesAreLeftOut) {
     const std::string outline =
         lines_of_dxf({{{4, 0}, {2, 1}}, {{2, 1}, {0, 0}}, {{0, 0}, {2, -1}}, {{2, -1}, {4, 0}}});
     const std::vector<std::pair<std::string, std::string>> extras{
-        {lines_of_dxf({{{0, 0}, {4, 0}}}), "1 construction lines"},
-        {lines_of_dxf({{{0, 0}, {-1, 0}}}), "1 construction lines"},
-        {lines_of_dxf({{{2, 1}, {2, -1}}}), "1 construction lines"},
+        {lines_of_dxf({{{0, 0}, {4, 0}}}), "1 construction line left out"},
+        {lines_of_dxf({{{0, 0}, {-1, 0}}}), "1 construction line left out"},
+        {lines_of_dxf({{{2, 1}, {2, -1}}}), "1 construction line left out"},
         {outline, "4 curves drawn twice"},
         {entity("TEXT", {"1 chord"}) + entity("DIMENSION", {}), "1 DIMENSION, 1 TEXT"},
         {entity("LINE", {"6 CENTER", "10 0", "20 0", "11 9", "21 9"}), "1 centre lines"},
@@ -164,6 +164,78 @@ TEST(Drawings, ConstructionLinesAreLeftOut) {
         EXPECT_EQ(e.points.size(), 4u) << note;
         EXPECT_TRUE(has_repair(e, note)) << note << ": " << fmt::format("{}", e.repairs.at(0));
     }
+}
+
+/// Returns a section of straight lines with spars at these abscissae, of which each is a vertex of both sides.
+std::string section_with_spars(const std::vector<double>& spars, double height) {
+    std::vector<Point> outline{{10, 0}};
+    for (std::size_t k = spars.size(); k-- > 0;) outline.push_back({spars[k], height});
+    outline.push_back({0, 0});
+    for (const double x : spars) outline.push_back({x, -height});
+    std::vector<std::pair<Point, Point>> lines;
+    for (std::size_t i = 0; i < outline.size(); ++i) lines.emplace_back(outline[i], outline[(i + 1) % outline.size()]);
+    for (const double x : spars) lines.push_back({{x, -height}, {x, height}});
+    return dxf(lines_of_dxf(lines));
+}
+
+TEST(Drawings, SparsAtNeighbouringVerticesAreLeftOut) {
+    for (const double height : {0.3, 3.0}) {
+        for (const std::vector<double>& spars : {std::vector{2.0, 4.0}, {2.0, 4.0, 6.0}, {1.0, 2.0, 4.0, 8.0}}) {
+            const Element e = element_of(section_with_spars(spars, height));
+            EXPECT_EQ(e.points.size(), 2 * spars.size() + 2);
+            EXPECT_TRUE(has_repair(e, fmt::format("{} construction lines left out", spars.size())));
+        }
+    }
+    // Neither the longest nor the shortest lines first leave one outline.
+    EXPECT_NE(message_of(section_with_spars({1, 1.1, 5}, 0.3)).find("not clear which of them"), std::string::npos);
+    // A line that joins two outlines.
+    const std::string second = lines_of_dxf({{{6, 0}, {8, 1}}, {{8, 1}, {8, -1}}, {{8, -1}, {6, 0}}});
+    const Geometry two = of_text(dxf(lines_of_dxf({{{4, 0}, {0, 1}}, {{0, 1}, {0, -1}}, {{0, -1}, {4, 0}}}) + second +
+                                     lines_of_dxf({{{4, 0}, {6, 0}}})));
+    EXPECT_EQ(two.elements.size(), 2u);
+}
+
+TEST(Drawings, PolylinesEndWithoutSeqendAndMissingBlocksAreNamed) {
+    const auto vertex = [](const char* x, const char* y) {
+        return entity("VERTEX", {std::string("10 ") + x, std::string("20 ") + y});
+    };
+    const Element e = element_of(dxf(entity("POLYLINE", {"66 1", "70 1"}) + vertex("0", "0") + vertex("4", "0") +
+                                     vertex("4", "1") + entity("POLYLINE", {"66 1", "60 1"}) + vertex("9", "9") +
+                                     entity("SEQEND", {}) + entity("INSERT", {"2 none", "10 0", "20 0"})));
+    EXPECT_EQ(e.points.size(), 3u);
+    EXPECT_TRUE(has_repair(e, "1 INSERT of a block that is missing, 1 hidden entities"));
+}
+
+TEST(Drawings, LengthsInPercentAreLeftOut) {
+    const Element e = element_of(svg("<rect width='3' height='2mm'/><circle cx='1' cy='50%' r='1'/>"));
+    EXPECT_EQ(e.points.size(), 4u);
+    EXPECT_TRUE(has_repair(e, "1 shapes with lengths in percent"));
+}
+
+TEST(Drawings, CompositeCurvesOfIgesHaveTheirPartsAlone) {
+    const Geometry geometry = of_text(iges({{102, "2,3,5,0,1,7", 9},
+                                            {100, "0,0,0,1,0,-1,0", 0, 0, "00010000"},
+                                            {100, "0,0,0,-1,0,1,0", 0, 0, "00010000"},
+                                            {100, "0,0,0,1,0,1,0"},
+                                            {124, "1,0,0,10,0,1,0,0,0,0,1,0"}}));
+    ASSERT_EQ(geometry.elements.size(), 2u);
+    EXPECT_NEAR(bounding_box(geometry).lower.x, -1, 1e-12);
+    EXPECT_NEAR(bounding_box(geometry).upper.x, 11, 1e-12);
+    EXPECT_NE(message_of(iges({{102, "9,3"}, {110, "0,0,0,1,1,0"}})).find("announces more"), std::string::npos);
+}
+
+TEST(Drawings, OtherConicsOfIgesAreLeftOut) {
+    const Element e = element_of(iges({{104, "1,0,-1,0,0,-1,0,1,0,2,1.7"}, {100, "0,0,0,1,0,1,0"}}));
+    EXPECT_TRUE(has_repair(e, "1 IGES entity 104"));
+}
+
+TEST(Drawings, TheErrorOfTheFirstPlaneIsShown) {
+    const std::string head = "3,3,0,0,1,0,0,0,0,0,1,1,1,1,1,1,1,1,", tail = ",0,1,0,0,1";
+    const std::string message = message_of(iges({{126, head + "0,0,0,1,1,0,2,1,0,3,0,0" + tail},
+                                                 {126, head + "9,9,0,8,8,0,7,8,0,6,9,0" + tail},
+                                                 {110, "0,0,5,1,0,5"},
+                                                 {110, "1,0,5,1,1,5"}}));
+    EXPECT_NE(message.find("close no outline: the longest of 2"), std::string::npos) << message;
 }
 
 TEST(Drawings, HiddenLayersAndUnitsOfDxf) {
@@ -231,6 +303,70 @@ TEST(Drawings, StepWithoutEdgesGivesItsCurves) {
     EXPECT_NEAR(bounding_box(Geometry{{half}}).height(), 1, 1e-12);
 }
 
+/// Returns the unit circle as a closed spline of STEP, #30, whose seam is at (1, 0), with points on the axes, #10 to #18,
+/// and further instances.
+std::string spline_of_step(const std::string& more) {
+    for (auto [name, text] : fixtures::unit_circles())
+        if (name == "step spline") return text.insert(text.rfind("ENDSEC;"), more);
+    return {};
+}
+
+TEST(Drawings, ClosedSplinesOfStepMayBeTrimmedAtTheirSeam) {
+    std::string vertices;  // #40 at (1, 0), and on by quarters
+    for (int k = 0; k < 4; ++k) vertices += fmt::format("#{}=VERTEX_POINT('',#{});\n", 40 + k, 10 + 2 * k);
+    const auto edge = [](int number, int from, int to, const char* sense = ".T.") {
+        return fmt::format("#{}=EDGE_CURVE('',#{},#{},#30,{});\n", number, from, to, sense);
+    };
+    for (const std::string& edges :
+         {edge(50, 40, 42) + edge(51, 42, 40), edge(50, 41, 43) + edge(51, 43, 41), edge(50, 40, 40), edge(50, 42, 42),
+          edge(50, 40, 42, ".F.") + edge(51, 40, 42), edge(50, 43, 43, ".F.")}) {
+        SCOPED_TRACE(edges);
+        EXPECT_LE(deviation_from_circle(element_of(spline_of_step(vertices + edges)).points), 2e-6);
+    }
+    const std::string open = "#31=B_SPLINE_CURVE_WITH_KNOTS('',1,(#10,#14),.U.,.F.,.F.,(2,2),(0.,1.),.U.);\n";
+    const std::string message =
+        message_of(spline_of_step(open + vertices + "#50=EDGE_CURVE('',#42,#40,#31,.T.);\n" + edge(51, 42, 40)));
+    EXPECT_NE(message.find("its end comes before its start"), std::string::npos) << message;
+}
+
+TEST(Drawings, ParametersTrimSplinesOfStep) {
+    const auto box_of = [](const std::string& from, const std::string& to, const std::string& rest) {
+        return bounding_box(of_text(spline_of_step(fmt::format(
+            "#31=TRIMMED_CURVE('',#30,(PARAMETER_VALUE({})),(PARAMETER_VALUE ( {} )),{});\n", from, to, rest))));
+    };
+    const Box upper = box_of("0.", "2.", ".T.,.PARAMETER.);\n#32=POLYLINE('',(#14,#10)");
+    EXPECT_NEAR(upper.lower.y, 0, 1e-12);
+    EXPECT_NEAR(upper.upper.y, 1, 1e-12);
+    const Box right = box_of("3.", "1.", ".T.,.PARAMETER.);\n#32=POLYLINE('',(#12,#16)");
+    EXPECT_NEAR(right.lower.x, 0, 1e-12);
+    EXPECT_NEAR(right.upper.x, 1, 1e-12);
+    EXPECT_NEAR(box_of("2.", "0.", ".F.,.PARAMETER.);\n#32=POLYLINE('',(#14,#10)").lower.y, 0, 1e-12);
+}
+
+TEST(Drawings, TheSenseOfTrimmedCurvesBelowEdgesCounts) {
+    const std::string circle =
+        "#1=CARTESIAN_POINT('',(0.,0.));\n#2=DIRECTION('',(1.,0.));\n#3=AXIS2_PLACEMENT_2D('',#1,#2);\n"
+        "#4=CIRCLE('',#3,1.);\n#5=CARTESIAN_POINT('',(1.,0.));\n#6=CARTESIAN_POINT('',(-1.,0.));\n"
+        "#7=VERTEX_POINT('',#5);\n#8=VERTEX_POINT('',#6);\n#9=VECTOR('',#2,1.);\n#10=LINE('',#5,#9);\n"
+        "#11=TRIMMED_CURVE('',#4,(#5),(#6),.F.,.CARTESIAN.);\n#12=EDGE_CURVE('',#8,#7,#10,.T.);\n";
+    const Box box = bounding_box(of_text(step(circle + "#13=EDGE_CURVE('',#7,#8,#11,.T.);\n")));
+    EXPECT_NEAR(box.lower.y, -1, 1e-12);
+    EXPECT_NEAR(box.upper.y, 0, 1e-12);
+}
+
+TEST(Drawings, UnitsOfStepHaveNames) {
+    const std::string metre = "#31=(LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT($,.METRE.));\n";
+    const auto unit_of = [](const std::string& units) { return element_of(spline_of_step(units)).unit; };
+    EXPECT_EQ(unit_of(metre), "m");
+    EXPECT_EQ(unit_of("#31=(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT( .MILLI. , .METRE. ));\n"), "mm");
+    for (const auto& [name, unit] : {std::pair{"FOOT", "ft"}, {"INCH", "in"}, {"inch", "in"}, {"MILE", ""}})
+        EXPECT_EQ(unit_of(metre + fmt::format("#32=(CONVERSION_BASED_UNIT('{}',#33)LENGTH_UNIT()NAMED_UNIT(#34));\n"
+                                              "#33=LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(0.3048),#31);\n",
+                                              name)),
+                  unit);
+    EXPECT_EQ(unit_of("#32=(CONVERSION_BASED_UNIT('DEGREE',#33)NAMED_UNIT(#34)PLANE_ANGLE_UNIT());\n" + metre), "m");
+}
+
 TEST(Drawings, RefusalsSayWhereAndWhatHelps) {
     const auto says = [](const std::string& text, const std::string& said) {
         const std::string message = message_of(text);
@@ -265,6 +401,14 @@ TEST(Drawings, RefusalsSayWhereAndWhatHelps) {
     says(step("#1=CARTESIAN_POINT('',(0.,0.));\n#4=B_SPLINE_CURVE_WITH_KNOTS('',1,(#1,#1),.U.,.F.,.F.,(4000000000,2),"
               "(0.,1.),.U.);\n"),
          "more knots than it can have");
+    for (const char* name : {"wing.igs", "WING.IGS", "wing.Step", "wing.STP"}) {
+        try {
+            geometry::parse_airfoil("nothing", name, {});
+            ADD_FAILURE();
+        } catch (const InputError& error) {
+            EXPECT_NE(std::string(error.what()).find("by its name, but not by what it holds"), std::string::npos);
+        }
+    }
     // The curves of two chains that share no ends.
     says(svg("<path d='M0 0C1 1 2 1 3 0'/><path d='M5 5C6 6 7 6 8 5'/>"),
          "the curves close no outline: the longest of 2");
@@ -319,35 +463,12 @@ TEST(Drawings, DamagedOnesGiveASimpleGeometryOrAnError) {
     std::vector<std::string> seeds;
     for (const auto& [name, text] : fixtures::unit_circles()) seeds.push_back(text);
     seeds.push_back(svg("<path d='M100,-1 L50,-10 C20,-15.4 0,-12 0,0 Q0,12 20,15.4 A30 9 0 0 1 100,1 Z'/>"));
-    std::mt19937 random(11);
-    const auto below = [&](std::size_t n) { return n == 0 ? 0 : random() % n; };
-    static const std::vector<std::string> pieces = {"nan", "1e60", "-1",          "0",   "9999999", "(",      ")",
-                                                    ",",   "#1",   "'",           ";",   "1H,",     "1e-300", "Z",
-                                                    "M",   "\n",   "0\nSPLINE\n", "<g>", "4H"};
+    test::Mutator mutate(11, {"nan", "1e60", "-1", "0", "9999999", "(", ")", ",", "#1", "'", ";", "1H,", "1e-300", "Z",
+                              "M", "\n", "0\nSPLINE\n", "<g>", "4H"});
     std::size_t accepted = 0, refused = 0;
     constexpr std::size_t cases = 6000;
     for (std::size_t i = 0; i < cases; ++i) {
-        std::string text = seeds[i % seeds.size()];
-        for (std::size_t k = 1 + below(3); k-- > 0;) {
-            const std::size_t at = below(text.size() + 1);
-            switch (below(5)) {
-                case 0:
-                    text.insert(at, pieces[below(pieces.size())]);
-                    break;
-                case 1:
-                    text.erase(at, below(8));
-                    break;
-                case 2:
-                    if (at < text.size()) text[at] = static_cast<char>('0' + below(10));
-                    break;
-                case 3:
-                    if (at < text.size()) text[at] = static_cast<char>(below(256));
-                    break;
-                default:
-                    text.insert(at, text.substr(below(text.size()), below(80)));
-                    break;
-            }
-        }
+        const std::string text = mutate(seeds[i % seeds.size()]);
         try {
             const Geometry geometry = of_text(text);
             ASSERT_NO_THROW(check_simple(geometry)) << text;

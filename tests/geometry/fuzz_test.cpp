@@ -1,5 +1,4 @@
 // Whatever the bytes of a damaged file, the reader ends with a Geometry that passes check_simple() or with an Error.
-#include <random>
 #include <string>
 #include <vector>
 
@@ -10,6 +9,7 @@
 
 #include "geometry/parse_airfoil.hpp"
 #include "support/geometry_fixtures.hpp"
+#include "support/mutator.hpp"
 #include "surface/summary.hpp"
 
 namespace lamina {
@@ -17,77 +17,36 @@ namespace {
 
 using surface::summarize;
 
-/// Damages a text at one to four random places.
-class Mutator {
-public:
-    explicit Mutator(unsigned seed) : random_(seed) {}
-
-    std::string operator()(std::string text) {
-        for (std::size_t k = 1 + below(4); k-- > 0;) mutate(text);
-        return text;
-    }
-
-private:
-    std::size_t below(std::size_t n) { return n == 0 ? 0 : random_() % n; }
-
-    void mutate(std::string& text) {
-        static const std::vector<std::string> pieces = {"nan",
-                                                        "-inf",
-                                                        "1e999",
-                                                        "999.0 999.0\n",
-                                                        "\n\n",
-                                                        "#",
-                                                        ";",
-                                                        ",",
-                                                        "5 5\n",
-                                                        "1 0\n",
-                                                        "\0",
-                                                        "0x1p3",
-                                                        "-",
-                                                        ".",
-                                                        "e",
-                                                        "D",
-                                                        "\xFF",
-                                                        "\t",
-                                                        "\r",
-                                                        "1e61",
-                                                        "4294967295 4294967295\n",
-                                                        "0 0 0\n",
-                                                        "1e8 1e8\n",
-                                                        "text\n",
-                                                        "-0",
-                                                        "1e-300"};
-        const std::size_t at = below(text.size() + 1);
-        switch (below(6)) {
-            case 0:
-                text.insert(at, pieces[below(pieces.size())]);
-                break;
-            case 1:
-                text.insert(at, 1, static_cast<char>(below(256)));
-                break;
-            case 2:
-                text.erase(at, below(6));
-                break;
-            case 3:
-                text.erase(at, below(text.size()));
-                break;
-            case 4:
-                if (at < text.size()) text[at] = static_cast<char>(below(256));
-                break;
-            default:
-                text.insert(at, text.substr(below(text.size()), below(60)));
-                break;
-        }
-    }
-
-    std::mt19937 random_;
-};
-
 TEST(Fuzz, DamagedFilesGiveASimpleGeometryOrAnError) {
     std::vector<std::string> seeds = fixtures::same_loop;
     seeds.insert(seeds.end(), {fixtures::two_999, fixtures::two_blank, fixtures::two_labelled, fixtures::two_lednicer,
                                fixtures::open_base});
-    Mutator mutate(7);
+    test::Mutator mutate(7, {"nan",
+                             "-inf",
+                             "1e999",
+                             "999.0 999.0\n",
+                             "\n\n",
+                             "#",
+                             ";",
+                             ",",
+                             "5 5\n",
+                             "1 0\n",
+                             std::string(1, '\0'),
+                             "0x1p3",
+                             "-",
+                             ".",
+                             "e",
+                             "D",
+                             "\xFF",
+                             "\t",
+                             "\r",
+                             "1e61",
+                             "4294967295 4294967295\n",
+                             "0 0 0\n",
+                             "1e8 1e8\n",
+                             "text\n",
+                             "-0",
+                             "1e-300"});
     std::size_t accepted = 0, refused = 0;
     constexpr std::size_t cases = 20000;
     for (std::size_t i = 0; i < cases; ++i) {

@@ -201,6 +201,15 @@ TEST(Unite, PocketsAndWhatLiesInsideAreFilled) {
     EXPECT_EQ(geometry.elements[0].transformations.back(), "inside lies inside the union");
 }
 
+TEST(Unite, RepairsOfAllBodiesAreKept) {
+    Outline repeated = box(1, 0.5, 3, 2);
+    repeated.insert(repeated.begin() + 1, repeated[0]);
+    const Geometry geometry = united({box(0, 0, 2, 1), repeated}, {"a", "b"});
+    const std::vector<std::string>& repairs = geometry.elements.at(0).repairs;
+    EXPECT_TRUE(std::any_of(repairs.begin(), repairs.end(),
+                            [](const std::string& r) { return r.find("duplicate") != std::string::npos; }));
+}
+
 TEST(Unite, BodiesThatTouchAtAPointAreRefused) {
     try {
         united({box(0, 0, 1, 1), box(1, 1, 2, 2)}, {"a", "b"});

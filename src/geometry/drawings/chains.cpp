@@ -12,6 +12,8 @@
 
 #include <lamina/error.hpp>
 
+#include "core/text.hpp"
+
 namespace lamina::geometry {
 
 namespace {
@@ -63,9 +65,10 @@ struct Edge {
     bool is_left = true;  ///< whether it is part of a chain still to be made
 };
 
-/// Returns what two curves have in common that are the same, in whatever direction: their ends, least first, and their
-/// middle, in steps of the tolerance.
+/// What two curves have in common that are the same.
 using Likeness = std::array<double, 6>;
+
+/// Returns the ends of a curve, least first, whatever its direction, and its middle, in steps of the tolerance.
 Likeness likeness_of(const PlaneCurve& curve, double tolerance) {
     Point a = at(curve, curve.first), b = at(curve, curve.last);
     if (lexicographically_less(b, a)) std::swap(a, b);
@@ -117,14 +120,7 @@ public:
     std::size_t prune() {
         std::size_t pruned = 0;
         for (const bool straight_only : {true, false}) pruned += prune_paths(straight_only);
-        for (std::size_t i = 0; i < edges_.size(); ++i) {
-            const Edge& e = edges_[i];
-            if (!e.is_left || is_loop(i) || !e.is_straight || ends_[e.from].size() < 3 || ends_[e.to].size() < 3)
-                continue;
-            remove(i);
-            ++pruned;
-        }
-        return pruned;
+        return pruned + prune_straight();
     }
 
     std::vector<Chain> chains() {
@@ -195,6 +191,66 @@ private:
         return pruned;
     }
 
+    bool joins_crossings(const Edge& e) const { return ends_[e.from].size() > 2 && ends_[e.to].size() > 2; }
+
+    /// Removes straight lines between places where more than two curves meet. Beside a line inside of an outline, such as
+    /// a spar, edges of the outline are such lines, too, but without these it would fall into parts: of the longest and
+    /// the shortest ones first, what keeps it whole counts. Throws InputError where neither does.
+    std::size_t prune_straight() {
+        std::vector<std::size_t> candidates;
+        for (std::size_t i = 0; i < edges_.size(); ++i)
+            if (edges_[i].is_left && !is_loop(i) && edges_[i].is_straight && joins_crossings(edges_[i]))
+                candidates.push_back(i);
+        if (candidates.empty()) return 0;
+        std::stable_sort(candidates.begin(), candidates.end(), [&](std::size_t a, std::size_t b) {
+            return size_of(curves_[a].curve) > size_of(curves_[b].curve);
+        });
+        const std::size_t whole = components();
+        const std::vector<std::vector<std::size_t>> ends = ends_;
+        for (int attempt = 0; attempt < 2; ++attempt) {
+            std::vector<std::size_t> removed;
+            for (const std::size_t i : candidates) {
+                if (!joins_crossings(edges_[i])) continue;
+                remove(i);
+                removed.push_back(i);
+            }
+            const bool has_crossings = std::any_of(candidates.begin(), candidates.end(), [&](std::size_t i) {
+                return ends_[edges_[i].from].size() > 2 || ends_[edges_[i].to].size() > 2;
+            });
+            if (removed.size() == candidates.size() || (!has_crossings && components() == whole)) return removed.size();
+            for (const std::size_t i : removed) edges_[i].is_left = true;
+            ends_ = ends;
+            std::reverse(candidates.begin(), candidates.end());
+        }
+        const std::size_t longest = candidates.front();
+        throw InputError({file_, curves_[longest].line, places_[edges_[longest].from]},
+                         "straight lines divide an outline so that it is not clear which of them are its edges: leave "
+                         "those out of the drawing that are none");
+    }
+
+    /// Returns the number of parts of the graph that no curves join.
+    std::size_t components() const {
+        std::vector<bool> is_reached(ends_.size());
+        std::vector<std::size_t> open;
+        std::size_t count = 0;
+        for (std::size_t start = 0; start < ends_.size(); ++start) {
+            if (is_reached[start] || ends_[start].empty()) continue;
+            ++count;
+            is_reached[start] = true;
+            open.push_back(start);
+            while (!open.empty()) {
+                const std::size_t place = open.back();
+                open.pop_back();
+                for (const std::size_t edge : ends_[place]) {
+                    const std::size_t next = other_end(edge, place);
+                    if (!is_reached[next]) open.push_back(next);
+                    is_reached[next] = true;
+                }
+            }
+        }
+        return count;
+    }
+
     Chain walk(std::size_t edge, bool is_reversed) {
         Chain chain;
         const std::size_t start = is_reversed ? edges_[edge].to : edges_[edge].from;
@@ -219,9 +275,9 @@ private:
 std::vector<Chain> join_curves(std::span<const FlatCurve> curves, double share, double size, const std::string& file,
                                std::vector<std::string>& notes) {
     Graph graph(curves, share, size, file);
-    if (graph.repeated() > 0) notes.push_back(fmt::format("{} curves drawn twice left out once", graph.repeated()));
+    if (graph.repeated() > 0) notes.push_back(core::counted(graph.repeated(), "curve") + " drawn twice left out once");
     if (const std::size_t pruned = graph.prune(); pruned > 0)
-        notes.push_back(fmt::format("{} construction lines that end at outlines left out", pruned));
+        notes.push_back(core::counted(pruned, "construction line") + " left out: they end at outlines");
     return graph.chains();
 }
 

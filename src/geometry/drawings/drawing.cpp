@@ -8,16 +8,11 @@
 #include <fmt/format.h>
 
 #include <lamina/error.hpp>
+#include <lamina/predicates.hpp>
 
 #include "geometry/characters.hpp"
 
 namespace lamina::geometry {
-
-namespace {
-
-constexpr double largest = 1e60;  // as of all coordinates
-
-}  // namespace
 
 void add_curve(Drawing& drawing, DrawnCurve curve, const std::string& what, const std::string& file) {
     drawing.control_points += curve.curve.control.size();
@@ -28,10 +23,11 @@ void add_curve(Drawing& drawing, DrawnCurve curve, const std::string& what, cons
     if (const std::string defect = defect_of(curve.curve); !defect.empty())
         throw InputError({file, curve.line, {}}, fmt::format("{}: {}", what, defect));
     const auto is_beyond = [](const Point3& p) {
-        return !(std::abs(p.x) <= largest && std::abs(p.y) <= largest && std::abs(p.z) <= largest);
+        return !(std::abs(p.x) <= max_exact_coordinate && std::abs(p.y) <= max_exact_coordinate &&
+                 std::abs(p.z) <= max_exact_coordinate);
     };
     if (std::any_of(curve.curve.control.begin(), curve.curve.control.end(), is_beyond))
-        throw InputError({file, curve.line, {}}, fmt::format("{}: coordinates above {:g}", what, largest));
+        throw InputError({file, curve.line, {}}, fmt::format("{}: coordinates above {:g}", what, max_exact_coordinate));
     drawing.curves.push_back(std::move(curve));
 }
 
@@ -44,7 +40,7 @@ double drawn_number(std::string_view text, const std::string& file, std::uint32_
     double value = 0;
     const char *const begin = plain.data(), *const end = begin + plain.size();
     const auto [rest, error] = std::from_chars(begin, end, value);
-    if (shown.size() > longest || error != std::errc() || rest != end || !(std::abs(value) <= largest))
+    if (shown.size() > longest || error != std::errc() || rest != end || !(std::abs(value) <= max_exact_coordinate))
         throw InputError({file, line, {}},
                          fmt::format("'{}' is not a number of a drawing", printable(shown.substr(0, longest))));
     return value;

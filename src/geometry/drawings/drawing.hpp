@@ -18,7 +18,7 @@ struct DrawnCurve {
     std::string layer;  ///< or the name of a group; empty: none
 };
 
-/// What a drawing holds.
+/// The curves of a drawing, and how many entities of other kinds were left out.
 struct Drawing {
     std::vector<DrawnCurve> curves;
     std::string unit;                             ///< of length, such as "mm"; empty: it names none

@@ -37,9 +37,10 @@ public:
     std::optional<Group> next() {
         if (text_.find_first_not_of(" \t\r\n\x1a") == std::string_view::npos) return std::nullopt;
         const std::uint32_t line = line_ + 1;
-        const std::string_view code = take_line();
+        const std::string_view code = take_line(text_);
         if (text_.empty()) throw InputError({file_, line, {}}, "the DXF drawing ends within a group");
-        const std::string_view value = take_line();
+        const std::string_view value = take_line(text_);
+        line_ += 2;
         return Group{drawn_count(code, file_, line), value, line};
     }
 
@@ -47,13 +48,6 @@ private:
     std::string_view text_;
     const std::string& file_;
     std::uint32_t line_ = 0;
-
-    std::string_view take_line() {
-        const std::string_view line = text_.substr(0, text_.find('\n'));
-        text_.remove_prefix(std::min(line.size() + 1, text_.size()));
-        ++line_;
-        return trimmed(line.substr(0, line.find('\r')));
-    }
 };
 
 /// An entity, or another record.
@@ -95,7 +89,7 @@ public:
             if (g.code == code) result.push_back(value(g));
         return result;
     }
-    /// Returns the points of which the groups of their x begin a new one.
+    /// Returns the points whose x, y and z have the codes code, code + 10 and code + 20. Each x begins a point.
     std::vector<Point3> points(std::size_t code) const {
         std::vector<Point3> result;
         for (const Group& g : record_.groups) {
@@ -177,12 +171,12 @@ private:
 
     void take(const Record& record) {
         const RecordView view(record, file_);
+        if (record.type != "VERTEX") end_polyline();  // some have no SEQEND
         if (record.type == "SECTION") {
             section_ = view.text(2);
             block_ = section_ == "ENTITIES" ? &entities_ : nullptr;
             if (section_ == "HEADER") read_header(record);
         } else if (record.type == "ENDSEC") {
-            end_polyline();
             section_ = {};
         } else if (section_ == "TABLES" && record.type == "LAYER") {
             if (view.number(62) < 0 || (view.flags(70) & 1) != 0) hidden_.emplace(view.text(2));
@@ -191,7 +185,6 @@ private:
             block_ = &blocks_[std::string(view.text(2))];
             block_->base = view.point(10);
         } else if (section_ == "BLOCKS" && record.type == "ENDBLK") {
-            end_polyline();
             block_ = nullptr;
         } else if ((section_ == "ENTITIES" || section_ == "BLOCKS") && block_) {
             take_entity(record, view);
@@ -226,11 +219,10 @@ private:
     void take_entity(const Record& record, const RecordView& view) {
         const std::string_view type = record.type;
         if (type == "VERTEX") return take_vertex(view);
-        if (type == "SEQEND") return end_polyline();
+        if (type == "SEQEND") return;
         if (const char* reason = why_left_out(view)) {
             ++drawing_.left_out[reason];
         } else if (type == "POLYLINE") {
-            end_polyline();
             polyline_ = record;
         } else if (type == "INSERT") {
             take_insert(record, view);
@@ -360,7 +352,11 @@ private:
             add_curve(drawing_, {mapped(drawn.curve, frame), drawn.line, drawn.layer}, "a curve", file_);
         for (const Insert& insert : block.inserts) {
             const auto found = blocks_.find(insert.block);
-            if (found == blocks_.end() || insert.block.starts_with("*D")) continue;
+            if (insert.block.starts_with("*D")) continue;
+            if (found == blocks_.end()) {
+                ++drawing_.left_out["INSERT of a block that is missing"];
+                continue;
+            }
             if (depth == max_depth_of_blocks || ++expansions_ > max_drawn_curves)
                 throw InputError({file_, insert.line, {}}, "the block is put into itself, or too many into each other");
             const Frame3 to_origin{-1 * found->second.base, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};

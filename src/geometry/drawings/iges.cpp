@@ -191,10 +191,13 @@ private:
         std::size_t at_ = 0;
     };
 
-    /// Names a composite curve to its parts.
+    /// Sets the owner of the parts of a composite curve.
     void own_parts(std::size_t number, const Entity& composite) {
+        // Behind the parts stand the associativities and the properties of the curve.
         const std::vector<std::string> fields = parameters_of(composite);
-        for (std::size_t i = 1; i < fields.size(); ++i) {  // behind their number
+        const std::size_t parts = fields.empty() ? 0 : count(fields[0], composite.line);
+        if (parts >= std::max<std::size_t>(fields.size(), 1)) refuse(composite, "it announces more than it holds");
+        for (std::size_t i = 1; i <= parts; ++i) {
             if (fields[i].empty()) continue;
             const auto part = entities_.find(drawn_count(fields[i], file_, composite.line));
             if (part != entities_.end()) part->second.owner = number;
@@ -322,14 +325,14 @@ private:
         return elliptic_arc(center, u, v, 0, sweep);
     }
 
-    /// Returns the ellipse A x^2 + C y^2 + F = 0 from one of its points to another one, counter-clockwise.
-    SpaceCurve ellipse(const Entity& e) const {
+    /// Returns the ellipse A x^2 + C y^2 + F = 0 from one of its points to another one, counter-clockwise; nothing for
+    /// other conics.
+    std::optional<SpaceCurve> ellipse(const Entity& e) const {
         Numbers n(*this, e);
         std::array<double, 6> c{};
         for (double& x : c) x = n.next();
         const double z = n.next(), x1 = n.next(), y1 = n.next(), x2 = n.next(), y2 = n.next();
-        if (c[1] != 0 || c[3] != 0 || c[4] != 0 || !(c[0] * c[5] < 0 && c[2] * c[5] < 0))
-            refuse(e, "it is no ellipse round the origin along the axes");
+        if (c[1] != 0 || c[3] != 0 || c[4] != 0 || !(c[0] * c[5] < 0 && c[2] * c[5] < 0)) return std::nullopt;
         const double a = std::sqrt(-c[5] / c[0]), b = std::sqrt(-c[5] / c[2]);
         const double from = core::atan2_reproducible(y1 / b, x1 / a);
         double sweep = core::atan2_reproducible(y2 / b, x2 / a) - from;

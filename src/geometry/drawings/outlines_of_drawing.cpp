@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <exception>
 #include <span>
 #include <utility>
 
@@ -12,9 +13,11 @@
 #include <lamina/error.hpp>
 
 #include "core/bounding_box.hpp"
+#include "core/text.hpp"
 #include "geometry/drawings/chains.hpp"
 #include "geometry/drawings/plane.hpp"
 #include "geometry/drawings/samples.hpp"
+#include "geometry/inside.hpp"
 
 namespace lamina::geometry {
 
@@ -89,19 +92,7 @@ std::vector<Chain> chains_of(std::span<const FlatCurve> curves, double size, con
 }
 
 bool box_holds(const Box& outer, const Box& inner) {
-    return outer.lower.x <= inner.lower.x && outer.lower.y <= inner.lower.y && outer.upper.x >= inner.upper.x &&
-           outer.upper.y >= inner.upper.y;
-}
-
-/// Returns whether a point lies inside of a polygon, by the crossings of a ray with it.
-bool is_inside(Point p, std::span<const Point> polygon) {
-    bool inside = false;
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-        const Point a = polygon[i], b = polygon[i + 1 < polygon.size() ? i + 1 : 0];
-        if ((a.y > p.y) == (b.y > p.y)) continue;
-        if (p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)) inside = !inside;
-    }
-    return inside;
+    return outer.contains(inner.lower) && outer.contains(inner.upper);
 }
 
 /// The outlines of a drawing, of which some are left out.
@@ -129,7 +120,7 @@ private:
         for (Outline& outline : outlines_)
             if (!predicate(outline)) kept.push_back(std::move(outline));
         const std::size_t count = outlines_.size() - kept.size();
-        if (count > 0) notes_.push_back(fmt::format("{} outline{} left out: {}", count, count == 1 ? "" : "s", reason));
+        if (count > 0) notes_.push_back(core::counted(count, "outline") + " left out: " + reason);
         outlines_ = std::move(kept);
     }
 
@@ -198,7 +189,7 @@ private:
         for (std::size_t i = 0; i < outlines_.size(); ++i)
             for (std::size_t j = 0; j < outlines_.size() && !is_inner[i]; ++j)
                 is_inner[i] = outlines_[j].area > outlines_[i].area && box_holds(outlines_[j].box, outlines_[i].box) &&
-                              is_inside(outlines_[i].rough[0], outlines_[j].rough);
+                              contains(outlines_[j].rough, outlines_[i].rough[0]);
         std::size_t i = 0;
         leave_out([&](const Outline&) { return is_inner[i++]; }, "inside another one, where there is no flow");
     }
@@ -224,6 +215,7 @@ std::vector<RawOutline> outlines_of_plane(std::span<const FlatCurve> curves, con
     std::vector<Outline> closed, open;
     for (Chain& chain : chains_of(curves, core::longer_side(box), file, notes)) {
         Outline outline = measured(curves, std::move(chain));
+        if (outline.rough.empty()) continue;  // polylines whose vertices are all the same
         (outline.is_nearly_closed() ? closed : open).push_back(std::move(outline));
     }
     std::erase_if(open, [&](const Outline& o) { return is_one_straight_line(curves, o.chain); });
@@ -233,8 +225,7 @@ std::vector<RawOutline> outlines_of_plane(std::span<const FlatCurve> curves, con
         if (open.size() > 1 && !keep_open) refuse_open(open, curves, file);
         std::swap(closed, open);
     }
-    if (!open.empty())
-        notes.push_back(fmt::format("{} open chain{} of curves left out", open.size(), open.size() == 1 ? "" : "s"));
+    if (!open.empty()) notes.push_back(core::counted(open.size(), "open chain") + " of curves left out");
     std::vector<Outline> outlines = Selection(std::move(closed), notes).take();
     if (outlines.empty()) throw InputError({file, curves[0].line, {}}, "the drawing has no outline with an inside");
     if (outlines.size() > max_drawn_outlines)
@@ -253,8 +244,8 @@ std::vector<RawOutline> outlines_of_plane(std::span<const FlatCurve> curves, con
         raw.points = std::move(sampled.points);
         raw.title = first.layer;
         raw.samples_of_curve = sampled.has_curves;
-        raw.notes.push_back(fmt::format("line {}: outline of {} curve{}", first.line, outline.chain.links.size(),
-                                        outline.chain.links.size() == 1 ? "" : "s"));
+        raw.notes.push_back(
+            fmt::format("line {}: outline of {}", first.line, core::counted(outline.chain.links.size(), "curve")));
     }
     return result;
 }
@@ -263,18 +254,18 @@ std::vector<RawOutline> outlines_of_plane(std::span<const FlatCurve> curves, con
 
 std::vector<RawOutline> outlines_of_drawing(const Drawing& drawing, const std::string& file, bool keep_open,
                                             std::vector<std::string>& notes) {
-    const std::vector<DrawnPlane> planes = planes_of(drawing, file);
-    for (const DrawnPlane& plane : planes) {
+    std::exception_ptr first_error;  // of the plane that most likely holds the outlines
+    for (const DrawnPlane& plane : planes_of(drawing, file)) {
         std::vector<std::string> own_notes = notes_on(plane, drawing);
         try {
             std::vector<RawOutline> outlines = outlines_of_plane(curves_in(plane, drawing), file, keep_open, own_notes);
             notes.insert(notes.end(), own_notes.begin(), own_notes.end());
             return outlines;
         } catch (const InputError&) {
-            if (&plane == &planes.back()) throw;
+            if (!first_error) first_error = std::current_exception();
         }
     }
-    return {};
+    std::rethrow_exception(first_error);
 }
 
 }  // namespace lamina::geometry

@@ -10,6 +10,8 @@
 
 #include <lamina/error.hpp>
 
+#include "core/text.hpp"
+
 namespace lamina::geometry {
 
 namespace {
@@ -145,9 +147,8 @@ std::vector<std::string> notes_on(const DrawnPlane& plane, const Drawing& drawin
     const std::size_t off = drawing.curves.size() - plane.curves.size();
     const Axes axes = axes_of(plane.across);
     if (plane.across == 2 && off == 0) return {};
-    return {fmt::format("the plane {} = {:.6g}, with {} and {} as coordinates; {} curve{} off it left out",
-                        names[plane.across], plane.at, names[axes.first], names[axes.second], off,
-                        off == 1 ? "" : "s")};
+    return {fmt::format("the plane {} = {:.6g}, with {} and {} as coordinates; {} off it left out", names[plane.across],
+                        plane.at, names[axes.first], names[axes.second], core::counted(off, "curve"))};
 }
 
 }  // namespace lamina::geometry

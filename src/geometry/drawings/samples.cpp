@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -180,7 +181,8 @@ SampledChain sample(std::span<const FlatCurve> curves, const Chain& chain, doubl
         find_corners(parts, chain.is_closed, size);
         parts = graded(divided(parts, size, max_deviation), chain.is_closed);
     }
-    if (parts.empty() || parts.size() > max_samples)
+    assert(!parts.empty());
+    if (parts.size() > max_samples)
         throw InputError({file, curves[chain.links[0].curve].line, {}},
                          fmt::format("an outline that needs more than {} points", max_samples));
     for (const CurvePart& part : parts) result.points.push_back({part.a, part.drawn->line, part.is_corner});

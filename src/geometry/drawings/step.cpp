@@ -19,18 +19,13 @@
 #include "core/text.hpp"
 #include "geometry/characters.hpp"
 #include "geometry/drawings/drawing.hpp"
+#include "geometry/length_units.hpp"
 
 namespace lamina::geometry {
 
 namespace {
 
 constexpr std::size_t max_depth_of_instances = 16, most_reads_of_byte = 100;
-
-std::string_view without_blanks(std::string_view text) {
-    while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
-    while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
-    return text;
-}
 
 /// Returns the parts of a list "a,(b,c),'d'", which commas divide outside of brackets and texts.
 std::vector<std::string_view> parts_of(std::string_view list) {
@@ -71,7 +66,7 @@ public:
 
     Drawing read(std::string_view text) {
         divide(text);
-        read_unit(text);
+        read_unit();
         bool has_edges = false;
         for (const std::size_t number : order_) {
             if (instances_.at(number).name() != "EDGE_CURVE") continue;
@@ -131,17 +126,24 @@ private:
             order_.push_back(number);
     }
 
-    /// Reads the unit of length: a metre with a prefix, or another one by its name.
-    void read_unit(std::string_view text) {
-        const auto holds = [&](std::string_view part) { return text.find(part) != std::string_view::npos; };
-        if (holds("CONVERSION_BASED_UNIT('INCH'") || holds("CONVERSION_BASED_UNIT('inch'"))
-            drawing_.unit = "in";
-        else if (holds("SI_UNIT(.MILLI.,.METRE.)"))
-            drawing_.unit = "mm";
-        else if (holds("SI_UNIT(.CENTI.,.METRE.)"))
-            drawing_.unit = "cm";
-        else if (holds("SI_UNIT($,.METRE.)"))
-            drawing_.unit = "m";
+    /// Reads the unit of length: one by its name, or else a metre with a prefix, which may be what that is defined by.
+    void read_unit() {
+        constexpr std::array<std::pair<std::string_view, const char*>, 4> metres{
+            {{"$", "m"}, {".CENTI.", "cm"}, {".MILLI.", "mm"}, {".MICRO.", "um"}}};
+        for (const std::size_t number : order_) {
+            if (!find_parameters(number, "LENGTH_UNIT")) continue;
+            if (const auto named = find_parameters(number, "CONVERSION_BASED_UNIT")) {
+                std::string_view name = (*named)[0];
+                if (name.starts_with('\'')) name = name.substr(1, name.find('\'', 1) - 1);
+                const std::optional<LengthUnitName> unit = length_unit(without_blanks(name));
+                drawing_.unit = unit ? unit->name : "";
+                return;
+            }
+            const auto si = find_parameters(number, "SI_UNIT");
+            if (!si || si->size() < 2 || (*si)[1] != ".METRE.") continue;
+            for (const auto& [prefix, unit] : metres)
+                if ((*si)[0] == prefix && drawing_.unit.empty()) drawing_.unit = unit;
+        }
     }
 
     // ---- instances -------------------------------------------------------------------------------------------------
@@ -233,6 +235,7 @@ private:
         std::optional<SpaceCurve> spline;  ///< empty for conics and lines
         std::optional<Frame3> ellipse;     ///< whose axes have the lengths of its radii
         bool is_line = false;
+        bool is_reversed = false;  ///< whether the curve runs against it
     };
 
     /// Returns what a curve is; nothing for kinds that are not read.
@@ -241,18 +244,22 @@ private:
         for (const char* name : {"SURFACE_CURVE", "SEAM_CURVE", "INTERSECTION_CURVE"})
             if (const auto list = find_parameters(number, name); list && list->size() > 1)
                 return basis(reference((*list)[1], number), depth + 1);
-        if (const auto list = find_parameters(number, "TRIMMED_CURVE"); list && list->size() > 1)
-            return basis(reference((*list)[1], number), depth + 1);
-        if (find_parameters(number, "LINE")) return BasisCurve{{}, {}, true};
+        if (const auto list = find_parameters(number, "TRIMMED_CURVE"); list && list->size() > 4) {
+            std::optional<BasisCurve> trimmed_curve = basis(reference((*list)[1], number), depth + 1);
+            if (trimmed_curve && (*list)[4] == ".F.") trimmed_curve->is_reversed = !trimmed_curve->is_reversed;
+            return trimmed_curve;
+        }
+        if (find_parameters(number, "LINE")) return BasisCurve{{}, {}, true, false};
         for (const char* name : {"CIRCLE", "ELLIPSE"}) {
             const auto list = find_parameters(number, name);
             if (!list || list->size() < 3) continue;
             Frame3 frame = placement(reference((*list)[1], number));
             frame.a = this->number((*list)[2], number) * frame.a;
             frame.b = this->number(list->back(), number) * frame.b;
-            return BasisCurve{{}, frame, false};
+            return BasisCurve{{}, frame, false, false};
         }
-        if (std::optional<SpaceCurve> spline = spline_of(number)) return BasisCurve{std::move(spline), {}, false};
+        if (std::optional<SpaceCurve> spline = spline_of(number))
+            return BasisCurve{std::move(spline), {}, false, false};
         return std::nullopt;
     }
 
@@ -341,17 +348,30 @@ private:
         std::optional<BasisCurve> known = basis(curve);
         if (!known) return leave_out(curve);
         if (known->is_line) return add(number, polyline({a, b}));
-        if (!is_same_sense) std::swap(a, b);
+        if (is_same_sense == known->is_reversed) std::swap(a, b);
         if (known->ellipse) return add_elliptic_arc(number, *known->ellipse, a, b);
-        SpaceCurve spline = *std::move(known->spline);
-        if (defect_of(spline).empty()) {
-            const double from = parameter_near(spline, a), to = parameter_near(spline, b);
-            if (from < to) {
-                spline.first = from;
-                spline.last = to;
-            }
-        }
-        add(number, std::move(spline));
+        const SpaceCurve& spline = *known->spline;
+        if (!defect_of(spline).empty()) return add(number, spline);  // which names the defect
+        add_part(number, spline, parameter_near(spline, a), parameter_near(spline, b));
+    }
+
+    /// Adds the part of a spline from one of its parameters to another one: of a closed one that may be beyond its seam.
+    /// Precondition: the spline has no defect.
+    void add_part(std::size_t number, const SpaceCurve& spline, double from, double to) {
+        constexpr double rounding = 1e-6;
+        const double gap = length(at(spline, spline.last) - at(spline, spline.first));
+        const bool is_closed = gap <= rounding * size_of(spline);
+        if (is_closed && to == spline.first) to = spline.last;
+        const auto add_range = [&](double first, double last) {
+            SpaceCurve part = spline;
+            part.first = first;
+            part.last = last;
+            if (first < last) add(number, std::move(part));
+        };
+        if (from < to) return add_range(from, to);
+        if (!is_closed) refuse(number, "its end comes before its start on an open curve");
+        add_range(from, spline.last);
+        add_range(spline.first, to);
     }
 
     void add_elliptic_arc(std::size_t number, const Frame3& ellipse, Point3 a, Point3 b) {
@@ -367,14 +387,19 @@ private:
         add(number, elliptic_arc(ellipse.origin, ellipse.a, ellipse.b, from, sweep));
     }
 
+    static double size_of(const SpaceCurve& curve) {
+        double size = 0;
+        for (const Point3& c : curve.control) size = std::max(size, length(c - curve.control[0]));
+        return size;
+    }
+
     /// Returns the parameter of the point of a curve that is nearest to another one: an end of the curve where that is as
     /// near as rounding.
     static double parameter_near(const SpaceCurve& curve, Point3 p) {
         constexpr std::size_t samples_of_piece = 8, rounds = 60;
         constexpr double rounding = 1e-9;
         const auto away = [&](double t) { return length(at(curve, t) - p); };
-        double size = 0;
-        for (const Point3& c : curve.control) size = std::max(size, length(c - curve.control[0]));
+        const double size = size_of(curve);
         if (away(curve.first) <= rounding * size) return curve.first;
         if (away(curve.last) <= rounding * size) return curve.last;
         const auto steps = static_cast<double>(samples_of_piece * curve.control.size());
@@ -400,6 +425,14 @@ private:
         return std::nullopt;
     }
 
+    /// Returns the parameter of a trim; nothing where it has none.
+    std::optional<double> trim_parameter(std::string_view trim, std::size_t user) const {
+        constexpr std::string_view name = "PARAMETER_VALUE";
+        for (const std::string_view part : parts_of(inside(trim)))
+            if (part.starts_with(name)) return number(inside(without_blanks(part.substr(name.size()))), user);
+        return std::nullopt;
+    }
+
     void add_free_curves() {
         std::set<std::size_t> trimmed_curves;
         for (const std::size_t number : order_)
@@ -415,10 +448,23 @@ private:
 
     void add_trimmed(std::size_t number, std::span<const std::string_view> list) {
         const auto a = trim_point(list[2], number), b = trim_point(list[3], number);
-        if (a && b) return add_between(number, reference(list[1], number), *a, *b, list[4] != ".F.");
-        const std::optional<BasisCurve> known = basis(number);
-        if (known && known->spline) return add(number, *known->spline);
+        const auto first = trim_parameter(list[2], number), last = trim_parameter(list[3], number);
+        const bool prefers_points = list.size() < 6 || list[5] != ".PARAMETER." || !first || !last;
+        const std::size_t curve = reference(list[1], number);
+        if (a && b && prefers_points) return add_between(number, curve, *a, *b, list[4] != ".F.");
+        const std::optional<BasisCurve> known = basis(curve);
+        const bool has_parameters = known && known->spline && !known->is_reversed && first && last;
+        if (has_parameters) return add_between_parameters(number, *known->spline, *first, *last, list[4] != ".F.");
+        if (a && b) return add_between(number, curve, *a, *b, list[4] != ".F.");
         leave_out(number);
+    }
+
+    void add_between_parameters(std::size_t number, const SpaceCurve& spline, double from, double to,
+                                bool is_same_sense) {
+        if (!defect_of(spline).empty()) return add(number, spline);  // which names the defect
+        if (!is_same_sense) std::swap(from, to);
+        const auto within = [&](double t) { return std::clamp(t, spline.first, spline.last); };
+        add_part(number, spline, within(from), within(to));
     }
 
     /// Adds a curve that nothing trims. Lines have no ends of their own.

@@ -215,13 +215,10 @@ struct Tag {
 std::string_view attribute(const Tag& tag, std::string_view name) {
     std::string_view rest = tag.attributes;
     while (true) {
-        while (!rest.empty() && is_blank(rest[0])) rest.remove_prefix(1);
         const std::size_t equals = rest.find('=');
         if (equals == std::string_view::npos) return {};
-        std::string_view key = rest.substr(0, equals);
-        while (!key.empty() && is_blank(key.back())) key.remove_suffix(1);
-        rest.remove_prefix(equals + 1);
-        while (!rest.empty() && is_blank(rest[0])) rest.remove_prefix(1);
+        const std::string_view key = without_blanks(rest.substr(0, equals));
+        rest = without_blanks(rest.substr(equals + 1));
         if (rest.empty() || (rest[0] != '"' && rest[0] != '\'')) return {};
         const std::size_t end = rest.find(rest[0], 1);
         if (end == std::string_view::npos) return {};
@@ -392,9 +389,22 @@ private:
             ++drawing_.left_out["hidden or unplaced shapes"];
             return;
         }
+        if (has_percentages(tag)) {
+            ++drawing_.left_out["shapes with lengths in percent"];
+            return;
+        }
         for (SpaceCurve& curve : curves_of(tag))
             add_curve(drawing_, {mapped(std::move(curve), element.frame), tag.line, std::string(element.id)},
                       fmt::format("the SVG {}", name), file_);
+    }
+
+    /// Returns whether a length of a shape is a share of the page.
+    static bool has_percentages(const Tag& tag) {
+        constexpr std::array<std::string_view, 13> lengths = {"x",  "y", "x1", "y1", "x2",    "y2",    "cx",
+                                                              "cy", "r", "rx", "ry", "width", "height"};
+        if (tag.name == "path" || tag.name.starts_with("poly")) return false;
+        return std::any_of(lengths.begin(), lengths.end(),
+                           [&](std::string_view key) { return without_blanks(attribute(tag, key)).ends_with('%'); });
     }
 
     std::vector<SpaceCurve> curves_of(const Tag& tag) const {
