@@ -67,7 +67,7 @@ TEST(Sides, MeetWhereTheLeadingEdgeWasMerged) {
     for (const double above : {1e-6, -1e-6}) {
         Outline doubled = outline;
         const auto at = doubled.begin() + (nose - outline.begin()) + (above > 0 ? 0 : 1);
-        doubled.insert(at, *nose + Point{1e-9, above});
+        doubled.insert(at, *nose + Point{1e-7, above});
         const Element e = prepared(doubled, sides(80, 60));
         EXPECT_EQ(e.points.size(), 140u);
         const auto foremost =
