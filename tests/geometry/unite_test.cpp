@@ -169,10 +169,10 @@ TEST(Unite, PartsOfTheWallMoveWithTheBody) {
     expect_moved(change("all:rotate:90"), [](Point p) { return perpendicular(p); });
     expect_moved(change("a:mirror"), [](Point p) { return Point{p.x, -p.y}; });
     expect_moved(blade_row(geometry, 8, 90), [](Point p) { return perpendicular(p); });
-    for (const WallPart& part : blade_row(geometry, 8, 20).elements[0].parts) {
-        const std::vector<Point>& points = blade_row(geometry, 8, 20).elements[0].points;
+    const Geometry turned = blade_row(geometry, 8, 20);
+    const std::vector<Point>& points = turned.elements[0].points;
+    for (const WallPart& part : turned.elements[0].parts)
         EXPECT_NE(std::find(points.begin(), points.end(), part.begin), points.end());
-    }
     EXPECT_THROW(change("a:flap:10:3.5,0.5"), InputError);
 }
 
