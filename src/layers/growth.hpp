@@ -43,6 +43,9 @@ struct LayerGrowth {
     std::optional<double> thickness{};      ///< LayerOptions::thickness, in units of the input
     /// One per element, in units of the input; empty: no element has its own. 0 on outer walls without layers.
     std::vector<double> first_heights{};
+    /// First heights along the walls of elements that have any, in the order of the wall as a closed chain, linear in
+    /// between; first_heights has the least one of each element then.
+    std::vector<WallHeight> wall_first_heights{};
     /// Heights that columns up to isotropy reach at least, where there is room: those of the flow's boundary layers.
     /// Each element has none, or a closed chain of them in the order of its wall; they are linear in between.
     std::vector<WallHeight> least_heights{};

@@ -29,17 +29,25 @@ struct WallNeighbours {
 /// Returns the wall's vertices beside a ray between these two others.
 WallNeighbours wall_neighbours(const RayLine& before, const RayLine& ray, const RayLine& after);
 
-/// Lowers values along each element until none exceeds bound(neighbour, ray). Goes twice round each element in both
-/// directions. Precondition: the bound is never below the neighbour's own value.
+/// Lowers values round a closed chain until none exceeds bound(neighbour, place). Goes twice round it in both directions.
+/// Precondition: the bound is never below the neighbour's own value.
+template <class T, class Bound>
+void lower_round(std::span<T> values, Bound bound) {
+    const std::size_t n = values.size();
+    const auto pass_on = [&](std::size_t from, std::size_t to) {
+        values[to % n] = std::min<T>(values[to % n], bound(from % n, to % n));
+    };
+    for (std::size_t k = 0; k < 2 * n; ++k) pass_on(k, k + 1);
+    for (std::size_t k = 2 * n; k-- > 0;) pass_on(k + 1, k);
+}
+
+/// Lowers values along each element until none exceeds bound(neighbour, ray), as lower_round() does.
 template <class T, class Bound>
 void lower_to_neighbours(const RaySet& set, std::vector<T>& values, Bound bound) {
     for (std::size_t e = 0; e < set.elements(); ++e) {
-        const std::size_t first = set.begin[e], n = set.begin[e + 1] - first;
-        const auto pass_on = [&](std::size_t from, std::size_t to) {
-            values[first + to % n] = std::min<T>(values[first + to % n], bound(first + from % n, first + to % n));
-        };
-        for (std::size_t k = 0; k < 2 * n; ++k) pass_on(k, k + 1);
-        for (std::size_t k = 2 * n; k-- > 0;) pass_on(k + 1, k);
+        const std::size_t first = set.begin[e];
+        lower_round(std::span(values).subspan(first, set.begin[e + 1] - first),
+                    [&](std::size_t from, std::size_t to) { return bound(first + from, first + to); });
     }
 }
 

@@ -64,6 +64,8 @@ LayerGrowth growth_on_element(const LayerGrowth& growth, std::size_t element) {
                     .fineness = growth.fineness};
     for (const WallHeight& height : growth.least_heights)
         if (height.element == element) own.least_heights.push_back({0, height.at, height.height});
+    for (const WallHeight& height : growth.wall_first_heights)
+        if (height.element == element) own.wall_first_heights.push_back({0, height.at, height.height});
     return own;
 }
 

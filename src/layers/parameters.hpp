@@ -56,6 +56,9 @@ inline constexpr double most_lean_deg = 45, most_lean_from_normals_deg = 57;
 /// the cells beside a ray.
 inline constexpr double largest_sharp_deg = 60;
 
+/// First heights along a wall that are given point by point differ by this factor at most from vertex to vertex.
+inline constexpr double max_first_height_ratio = 1.1;
+
 /// First heights that differ by less from the one wanted stay as they are.
 inline constexpr double kept_difference = 0.009;
 

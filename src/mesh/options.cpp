@@ -22,6 +22,7 @@ template LAMINA_EXPORT const OptionTable<MeshCheckOptions>& option_table();
 void validate(const MeshCheckOptions& options) {
     require_in_range(option_table<MeshCheckOptions>(), options);
     for (const double height : options.first_heights) require_in_range(positive_numbers, height, "first_heights");
+    for (const double height : options.first_height_at) require_in_range(positive_numbers, height, "first_height_at");
 }
 
 }  // namespace lamina

@@ -64,7 +64,7 @@ void measure_ratios(std::span<const Point> points, std::span<const WallEdge> wal
 /// The height of a cell of the first layer.
 struct FirstHeight {
     double height;
-    VertexId at;  ///< the vertex at which the edge begins
+    VertexId at, to;  ///< the ends of its edge
 };
 
 /// Returns the heights of the cells of the first layer, marker by marker.
@@ -73,7 +73,7 @@ std::vector<std::vector<FirstHeight>> first_heights_of_markers(std::span<const P
     std::vector<std::vector<FirstHeight>> heights(markers);
     for (const WallEdge& wall : walls)
         if (wall.edge->in_first_layer && points[wall.from.index()] != points[wall.to.index()])
-            heights[wall.marker].push_back({wall.edge->height, wall.from});
+            heights[wall.marker].push_back({wall.edge->height, wall.from, wall.to});
     return heights;
 }
 
@@ -102,6 +102,13 @@ void count_bare_edges(std::span<const Point> points, std::span<const Marker> mar
     }
 }
 
+/// Returns a height over the one wanted on its edge.
+double over_wanted(const FirstHeight& first, double on_marker, std::span<const double> at_vertices) {
+    if (std::max(first.at.index(), first.to.index()) >= at_vertices.size()) return first.height / on_marker;
+    const auto [low, high] = std::minmax({at_vertices[first.at.index()], at_vertices[first.to.index()]});
+    return first.height / std::clamp(first.height, low, high);
+}
+
 void measure_first_heights(std::span<const Point> points, std::span<const Marker> markers,
                            std::span<const WallEdge> walls, const MeshCheckOptions& options, WallSummary& summary) {
     const std::vector<std::vector<FirstHeight>> by_marker = first_heights_of_markers(points, markers.size(), walls);
@@ -116,11 +123,11 @@ void measure_first_heights(std::span<const Point> points, std::span<const Marker
             options.first_heights.empty() ? options.first_height.value_or(median) : options.first_heights[m];
         std::size_t kept = 0;
         for (const FirstHeight& first : heights) {
-            const double deviation = std::abs(first.height / wanted - 1);
+            const double share = over_wanted(first, wanted, options.first_height_at), deviation = std::abs(share - 1);
             kept += deviation <= first_height_tolerance;
             if (!(deviation > worst)) continue;
             worst = deviation;
-            summary.worst_first_height = first.height / wanted;
+            summary.worst_first_height = share;
             summary.worst_first_height_at = points[first.at.index()];
         }
         summary.first_heights.push_back(

@@ -10,6 +10,7 @@
 #include <lamina/threads.hpp>
 
 #include "decoupling/far_field.hpp"
+#include "layers/heights/heights.hpp"
 #include "pipeline/assemble.hpp"
 #include "pipeline/mesh_limits.hpp"
 #include "pipeline/row_border.hpp"
@@ -117,6 +118,26 @@ std::vector<double> first_heights_of_markers(const MeshResult& result, std::span
     return heights;
 }
 
+/// Returns the heights that first cells should have at each vertex of the walls, where they vary along them.
+std::vector<double> first_heights_at_vertices(const FittedLayer& fitted, const layers::Layer& layer) {
+    const layers::LayerGrowth& growth = layer.growth;
+    std::vector<double> heights;
+    if (growth.wall_first_heights.empty()) return heights;
+    heights.resize(layer.wall_points);
+    for (std::size_t e = 0; e < layer.walls.size(); ++e) {
+        std::vector<layers::WallHeight> chain;
+        if (e < fitted.geometry.elements.size()) {
+            const std::vector<Point>& wall = fitted.geometry.elements[e].points;
+            const std::vector<double> on_wall = layers::first_heights_on_wall(growth, e, wall);
+            for (std::size_t i = 0; i < on_wall.size(); ++i) chain.push_back({e, wall[i], on_wall[i]});
+        }
+        for (const VertexId v : layer.walls[e])
+            heights[v.index()] =
+                chain.empty() ? growth.first_height_on(e) : layers::height_at(layer.points[v.index()], chain);
+    }
+    return heights;
+}
+
 /// Divides the far field into inlet and outlet, if the options ask for it, and adds the markers of outer walls and of a
 /// line of symmetry that cuts bodies, or those of a row of blades.
 void complete_markers(const FittedLayer& fitted, const layers::Layer& layer, const RegionBorders& region,
@@ -188,10 +209,11 @@ MadeMesh make_mesh(const FittedLayer& fitted, const CaseOptions& options, MeshDr
     clock.end(&StageSeconds::decoupling);
 
     clock.begin("layer triangulation, refinement and check of pieces");
-    mesh::PiecewiseCheck check(
-        borders.points,
-        {.min_angle_deg = options.refine.min_angle_deg, .first_heights = first_heights_of_markers(result, markers)},
-        driver.matched_elsewhere(region.points.size()));
+    mesh::PiecewiseCheck check(borders.points,
+                               {.min_angle_deg = options.refine.min_angle_deg,
+                                .first_heights = first_heights_of_markers(result, markers),
+                                .first_height_at = first_heights_at_vertices(fitted, layer)},
+                               driver.matched_elsewhere(region.points.size()));
     core::BusyTimes times;
     MadePieces pieces =
         driver.make({layer, options.layer.topology, options.decomposition, markers, check, times, clock});

@@ -1,6 +1,7 @@
 // Layers of which each element has its own first height.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -11,6 +12,7 @@
 #include <lamina/threads.hpp>
 
 #include "layers/growth_laws.hpp"
+#include "layers/heights/heights.hpp"
 #include "layers/layer.hpp"
 #include "layers/stages.hpp"
 #include "support/layers.hpp"
@@ -115,6 +117,60 @@ TEST(FirstHeights, LayersOfDifferentHeightsMeetInAGap) {
                           0);
         }
     }
+}
+
+/// First heights that vary along the wall by a factor of 3 are those of the rays, within a tenth from vertex to vertex; wakes and
+/// fans go on with those of the trailing edge.
+TEST(FirstHeights, MayVaryAlongTheWall) {
+    const Geometry geometry = shapes::geometry({shapes::section(0.12, 0, 400), second_section()});
+    const std::vector<Point>& wall = geometry.elements[1].points;
+    for (const bool automatic : {false, true}) {
+        LayerOptions options = options_with_own_heights(GrowthLaw::geometric);
+        options.layers = automatic ? std::nullopt : std::optional(std::uint32_t{20});
+        LayerGrowth growth = layer_growth(options, {}, {1e-5, 2e-5});
+        for (std::size_t i = 0; i < wall.size(); ++i) {
+            const double share = static_cast<double>(i) / static_cast<double>(wall.size());
+            growth.wall_first_heights.push_back({1, wall[i], 2e-5 * (2 - std::cos(6.283185307 * share))});
+        }
+        const std::vector<double> wanted = first_heights_on_wall(growth, 1, wall);
+        const Rays made = grow_rays(geometry, options, growth);
+        for (const std::string& finding : check_layer(close_border(made), options)) ADD_FAILURE() << finding;
+        double largest = 0;
+        std::size_t i = 0;
+        for (std::size_t r = made.set.begin[1]; r < made.set.begin[2]; ++r) {
+            const RayLine& ray = made.set.lines[r];
+            if (i + 1 < wall.size() && ray.origin == wall[i + 1]) ++i;
+            if (ray.origin != wall[i]) continue;
+            EXPECT_NEAR(made.heights.of(r)[1] / (ray.slant * wanted[i]), 1, 1e-9);
+            EXPECT_LE(wanted[(i + 1) % wall.size()], wanted[i] * 1.1 * (1 + 1e-12));
+            largest = std::max(largest, wanted[i]);
+        }
+        EXPECT_EQ(i + 1, wall.size());
+        EXPECT_GT(largest, 5.5e-5);
+        EXPECT_TRUE(first_heights_on_wall(growth, 0, geometry.elements[0].points).empty());
+    }
+}
+
+/// No layer goes beyond the thickness, whatever the first heights.
+TEST(FirstHeights, ThatVaryKeepTheThickness) {
+    const Geometry geometry = shapes::geometry({shapes::section(0.12, 0, 200)});
+    const std::vector<Point>& wall = geometry.elements[0].points;
+    for (const GrowthLaw law : {GrowthLaw::geometric, GrowthLaw::polynomial, GrowthLaw::exponential})
+        for (const bool automatic : {false, true}) {
+            if (automatic && law == GrowthLaw::exponential) continue;  // it needs a number of layers
+            LayerOptions options = options_with_own_heights(law);
+            options.layers = automatic ? std::nullopt : std::optional(std::uint32_t{25});
+            options.thickness = 0.004;
+            LayerGrowth growth = layer_growth(options, {}, {1e-5});
+            for (std::size_t i = 0; i < wall.size(); ++i)
+                growth.wall_first_heights.push_back({0, wall[i], 1e-5 * (1 + 3 * wall[i].x)});
+            const Rays rays = grow_rays(geometry, options, growth);
+            double thickest = 0;
+            for (std::size_t r = 0; r < rays.set.lines.size(); ++r)
+                thickest = std::max(thickest, rays.heights.of(r)[rays.counts[r]] / rays.set.lines[r].slant);
+            EXPECT_LE(thickest, 0.004 * (1 + 1e-9)) << static_cast<int>(law) << automatic;
+            EXPECT_GT(thickest, 0.003) << static_cast<int>(law) << automatic;
+        }
 }
 
 TEST(FirstHeights, DoNotDependOnTheNumberOfThreads) {

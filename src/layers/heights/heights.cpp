@@ -23,9 +23,6 @@
 
 namespace lamina::layers {
 
-namespace {
-
-/// Returns the height at the point of the chain that is nearest to p.
 double height_at(Point p, std::span<const WallHeight> chain) {
     double nearest = HUGE_VAL, height = 0;
     for (std::size_t k = 0; k < chain.size(); ++k) {
@@ -41,7 +38,33 @@ double height_at(Point p, std::span<const WallHeight> chain) {
     return height;
 }
 
-}  // namespace
+std::vector<double> first_heights_on_wall(const LayerGrowth& growth, std::size_t element, std::span<const Point> wall) {
+    std::vector<WallHeight> chain;
+    for (const WallHeight& height : growth.wall_first_heights)
+        if (height.element == element) chain.push_back(height);
+    std::vector<double> heights(chain.empty() ? 0 : wall.size());
+    core::parallel_for(heights.size(), 64, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) heights[i] = height_at(wall[i], chain);
+    });
+    lower_round(std::span(heights),
+                [&](std::size_t from, std::size_t) { return max_first_height_ratio * heights[from]; });
+    return heights;
+}
+
+void set_first_heights(std::span<const double> heights, std::span<const Point> wall, double first_height,
+                       std::span<RayVertex> outline) {
+    double last = 1;
+    std::size_t k = 0;
+    for (RayVertex& vertex : outline) {
+        if (vertex.place != RayPlace::wall) continue;
+        while (wall[k] != vertex.at) k = (k + 1) % wall.size();  // the outline leaves vertices of the wall out
+        last = vertex.opening = heights[k] / first_height;
+    }
+    // A wake begins between the last vertex of the wall and the first one.
+    const double at_end = std::min(outline.front().opening, last);
+    for (RayVertex& vertex : outline)
+        if (vertex.place != RayPlace::wall) vertex.opening *= at_end;
+}
 
 void set_least_heights(std::span<const WallHeight> chain, std::span<RayVertex> outline) {
     const std::size_t n = outline.size();
@@ -100,16 +123,40 @@ RaySet rays_of_element(const RaySet& set, std::size_t element) {
     return {{line(begin), line(end)}, {0, end - begin}};
 }
 
-/// The heights that the growth law gives above a wall, one table for all rays of an element or one for each.
+/// Returns whether rays have first heights of their own.
+bool has_openings(const RaySet& set) {
+    return std::any_of(set.lines.begin(), set.lines.end(), [](const RayLine& ray) { return ray.opening != 1; });
+}
+
+/// The heights that the growth law gives above a wall, one table for all rays of an element or one for each. Those of a ray are
+/// multiplied by its opening.
 class LawHeights {
 public:
     LawHeights(const RaySet& set, const LayerGrowth& growth) {
         const GrowthLawEntry& law = growth_law_entry(growth.law);
+        // A thickness is the same for all rays, and no multiple of their first heights.
+        if (growth.thickness && growth.layers && !law.by_spacing && has_openings(set)) {
+            make_tables(set, growth, law);
+            return;
+        }
         growths_ = law.by_spacing ? law.by_spacing->on_rays(set, growth) : std::vector{law.ray_growth(growth)};
         for (const double ray_growth : growths_) {
             std::vector<double>& table = tables_.emplace_back(
                 law.heights(growth.first_height, ray_growth, growth.layers.value_or(max_automatic_layers)));
             if (growth.thickness && !law.fills_thickness) cut_at_thickness(*growth.thickness, table);
+        }
+    }
+
+    /// Makes the tables of a law that ends at a thickness, ray by ray.
+    void make_tables(const RaySet& set, const LayerGrowth& growth, const GrowthLawEntry& law) {
+        for (const RayLine& ray : set.lines) {
+            LayerGrowth own = growth;
+            own.first_height *= ray.opening;
+            growths_.push_back(law.ray_growth(own));
+            std::vector<double>& table =
+                tables_.emplace_back(law.heights(own.first_height, growths_.back(), *growth.layers));
+            if (!law.fills_thickness) cut_at_thickness(*growth.thickness, table);
+            for (double& height : table) height /= ray.opening;
         }
     }
 
@@ -137,6 +184,7 @@ std::vector<double> asked_on_element(const RaySet& own, const LayerGrowth& growt
     asked = heights_of_isotropy(own, law.of(0), least);
     for (std::size_t i = 0; i < asked.size(); ++i) {
         if (!growth.thickness && asked[i] >= own.lines[i].opening * law.of(i).back()) throw_too_many_layers();
+        if (growth.thickness) asked[i] = std::min(asked[i], *growth.thickness);
         asked[i] *= own.lines[i].slant;
     }
     bound_slopes(own, asked);

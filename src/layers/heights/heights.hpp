@@ -10,11 +10,23 @@
 
 namespace lamina::layers {
 
-// Heights that columns reach at least.
+// Heights that are given along walls.
+
+/// Returns the height at the point of a closed chain that is nearest to p.
+double height_at(Point p, std::span<const WallHeight> chain);
 
 /// Sets the least heights of the vertices on the wall of an element: that of the nearest point of this closed chain,
 /// linear along it. Those of wakes stay as they are.
 void set_least_heights(std::span<const WallHeight> chain, std::span<RayVertex> outline);
+
+/// Returns the first heights wanted at the vertices of the wall of an element: those of the nearest points of
+/// LayerGrowth::wall_first_heights, so that neighbours differ by a tenth at most; empty where it has none there.
+std::vector<double> first_heights_on_wall(const LayerGrowth& growth, std::size_t element, std::span<const Point> wall);
+
+/// Gives the vertices of an outline on the wall these first heights, one per vertex of the wall, and those of a wake the
+/// one at its beginning times what they have. `first_height` is that of the element.
+void set_first_heights(std::span<const double> heights, std::span<const Point> wall, double first_height,
+                       std::span<RayVertex> outline);
 
 /// Returns the least heights of all rays. The ends of a fan have those of the rays beside it, so that both sides of a
 /// trailing edge keep their own.
