@@ -53,6 +53,15 @@ LAMINA_EXPORT double distance_to(const SizeSource& source, Point p);
 /// Returns the box round the shape, its radius included.
 LAMINA_EXPORT Box bounding_box(const SizeSource& source);
 
+/// What a solution asks of the wall of a body and of the layer on it, at points along it: a closed chain in the order of the
+/// wall. All lists have one entry per point.
+struct SizedWall {
+    std::vector<Point> points{};
+    std::vector<double> spacings{};     ///< largest distance of the wall's vertices, in units of the input
+    std::vector<double> units{};        ///< height above the wall at which y+ is 1
+    std::vector<double> thicknesses{};  ///< of the boundary layer
+};
+
 /// A mesh with a target edge length at each point, linear inside its triangles, which may overlap, have any orientation
 /// and need not cover the domain: beyond them sizes grow by the gradation.
 struct SizedMesh {
@@ -63,6 +72,9 @@ struct SizedMesh {
     /// as that of solution_sizes(), decides on all sizes beyond the layers, without wakes of the flow before the mesh.
     /// Walls, layers and their borders change only where it asks for shorter edges.
     std::optional<double> gradation{};
+    /// Walls that have spacings, first heights where these are given by y+, and least heights of layers of their own, in place
+    /// of those of the flow before the mesh.
+    std::vector<SizedWall> walls{};
 };
 
 /// Options of a size field.

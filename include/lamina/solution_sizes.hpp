@@ -19,10 +19,20 @@
 #pragma once
 
 #include <functional>
+#include <optional>
+#include <string>
 
 #include <lamina/solution.hpp>
 
 namespace lamina {
+
+/// What is known about the flow along walls.
+struct WallFlowOptions {
+    std::string
+        velocity;  ///< name of the vectors of velocity, or of momentum, whose components "NAME:x" and "NAME:y" are
+                   ///< the last two fields of the solution
+    double viscosity = 0;  ///< kinematic, over the speed of the free stream: the chord over the Reynolds number
+};
 
 /// Options of solution_sizes().
 struct SolutionSizeOptions {
@@ -32,6 +42,7 @@ struct SolutionSizeOptions {
     /// Whether sizes are raised near the layers, so that no edge of their borders is divided for their sake, and the
     /// layers stay as they are. Without that, the number of vertices can only be known by making the mesh.
     bool keep_borders = true;
+    std::optional<WallFlowOptions> walls{};  ///< empty: nothing is asked of the walls
 };
 
 LAMINA_EXPORT void validate(const SolutionSizeOptions& options);  ///< throws OptionError: an option out of range

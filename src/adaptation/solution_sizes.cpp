@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -14,6 +16,8 @@
 #include "adaptation/hessian.hpp"
 #include "adaptation/outer_region.hpp"
 #include "adaptation/vertex_patches.hpp"
+#include "adaptation/wall_flow.hpp"
+#include "adaptation/wall_sizes.hpp"
 #include "core/reproducible_math.hpp"
 
 namespace lamina::adaptation {
@@ -52,14 +56,13 @@ struct FieldShape {
     /// Per vertex of the mesh: lambda^(-1/3), scaled so that such sizes would make one triangle of area h^2. It is
     /// infinite where the field is linear, and everywhere if it is linear everywhere.
     std::vector<double> size;
+    double scale = 0;  ///< what lambda is multiplied by so that this comes out
     double error = 0;  ///< SolutionSizes::errors
 };
 
 FieldShape shape_of(const Mesh& mesh, const SolutionField& field, const OuterVertices& vertices) {
     // Smaller second differences, as shares of the largest value, are rounding.
     constexpr double rounding = 1e-11;
-    // The mean square error of interpolating lambda x^2 / 2 on an equilateral triangle is so many times (lambda h^2)^2.
-    constexpr double square_error = 3.375 / 720;
     const std::vector<Hessian> hessians = recover_hessians(mesh, field);
     double largest = 0;
     for (const double value : field.values) largest = std::max(largest, std::abs(value));
@@ -71,12 +74,21 @@ FieldShape shape_of(const Mesh& mesh, const SolutionField& field, const OuterVer
         if (vertices.area[v] == 0 || !(difference > rounding * largest)) continue;
         shape.size[v] = 1 / core::pow_reproducible(curvature, 1.0 / 3);
         triangles += vertices.area[v] / (shape.size[v] * shape.size[v]);
-        squared += square_error * vertices.area[v] * difference * difference;
+        squared += square_error_on_triangle * vertices.area[v] * difference * difference;
     }
-    if (triangles > 0)
+    if (triangles > 0) {
         for (double& size : shape.size) size *= std::sqrt(triangles);
+        shape.scale = 1 / (triangles * std::sqrt(triangles));
+    }
     shape.error = std::sqrt(squared);
     return shape;
+}
+
+/// Returns the fields that are to be interpolated well: all but the components of the velocity that walls need, which stand
+/// last.
+std::span<const SolutionField> interpolated_fields(const Solution& solution, const SolutionSizeOptions& options) {
+    const std::size_t of_walls = options.walls ? 2 : 0;
+    return std::span(solution.fields).first(solution.fields.size() - std::min(solution.fields.size(), of_walls));
 }
 
 /// Makes the mesh of sizes from the isotropic cells.
@@ -87,11 +99,16 @@ public:
         : options_(options) {
         const Mesh& mesh = solution.mesh;
         shape_.assign(mesh.points.size(), HUGE_VAL);
-        for (const SolutionField& field : solution.fields) {
+        std::vector<double> scales;
+        for (const SolutionField& field : interpolated_fields(solution, options)) {
             const FieldShape shape = shape_of(mesh, field, vertices);
             for (std::size_t v = 0; v < shape_.size(); ++v) shape_[v] = std::min(shape_[v], shape.size[v]);
             errors_.push_back(shape.error);
+            scales.push_back(shape.scale);
         }
+        if (options.walls)
+            walls_.emplace(solution, find_wall_flow(solution, options.walls->velocity, options.walls->viscosity),
+                           scales, options.max_change);
         if (std::all_of(shape_.begin(), shape_.end(), [](double size) { return size == HUGE_VAL; }))
             throw OptionError("field", "is linear everywhere beyond the layer: no sizes follow from it");
         keep_outer_vertices(mesh, isotropic, vertices);
@@ -112,6 +129,7 @@ public:
     SizedMesh with(double factor) const {
         SizedMesh sizes = base_;
         sizes.gradation = options_.gradation;
+        if (walls_) sizes.walls = walls_->with(factor);
         for (std::size_t v = 0; v < shape_.size(); ++v) {
             const double size =
                 std::clamp(factor * shape_[v], edge_[v] / options_.max_change, edge_[v] * options_.max_change);
@@ -150,6 +168,7 @@ private:
     SizedMesh base_;
     std::vector<double> shape_, area_, edge_, floors_;  ///< per point of base_
     std::vector<double> errors_;                        ///< per field
+    std::optional<WallSizes> walls_;                    ///< none: walls stay as they are
 };
 
 /// Finds the factor with which the mesh has the number of vertices asked for.
@@ -213,7 +232,8 @@ SolutionSizes solution_sizes(const Solution& solution, const SolutionSizeOptions
     constexpr double good_enough = 0.01, acceptable = 0.02;
     constexpr int most_rounds = 16;
     validate(options);
-    if (solution.fields.empty()) throw OptionError("field", "is needed: sizes follow from fields of the solution");
+    if (interpolated_fields(solution, options).empty())
+        throw OptionError("field", "is needed: sizes follow from fields of the solution");
     const std::vector<char> isotropic = simple_region(solution.mesh, isotropic_cells(solution.mesh));
     const OuterVertices vertices = measure_vertices(solution.mesh, VertexCells(solution.mesh, isotropic));
     SizesMaker maker(solution, options, isotropic, vertices);

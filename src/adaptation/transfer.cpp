@@ -1,5 +1,4 @@
-// Carries fields to another mesh. Gradients in cells are those of least squares with weights of the inverse square of
-// distances, which copes with the stretched cells of curved layers. Source: D. J. Mavriplis, AIAA 2003-3986.
+// Carries fields to another mesh.
 #include <lamina/transfer.hpp>
 
 #include <algorithm>
@@ -14,13 +13,12 @@
 #include <lamina/delaunay_queries.hpp>
 #include <lamina/error.hpp>
 
-#include "adaptation/vertex_patches.hpp"
+#include "adaptation/cell_gradients.hpp"
 #include "core/bounding_box.hpp"
 #include "core/box_tree.hpp"
 #include "core/parallel.hpp"
 #include "core/segments.hpp"
 #include "mesh/adjacency.hpp"
-#include "mesh/cell_middle.hpp"
 
 namespace lamina::adaptation {
 
@@ -78,14 +76,6 @@ std::vector<Segment> wall_edges(const Mesh& mesh) {
     for (const Marker& marker : mesh.markers)
         if (marker.kind == MarkerKind::wall) edges.insert(edges.end(), marker.edges.begin(), marker.edges.end());
     return edges;
-}
-
-std::vector<Point> cell_middles(const Mesh& mesh) {
-    std::vector<Point> middles;
-    middles.reserve(mesh.triangles.size() + mesh.quads.size());
-    for (const Triangle& triangle : mesh.triangles) middles.push_back(mesh::middle_of_cell(mesh, triangle.v));
-    for (const Quad& quad : mesh.quads) middles.push_back(mesh::middle_of_cell(mesh, quad.v));
-    return middles;
 }
 
 /// Where a value comes from: three vertices with weights, and the cell that they belong to.
@@ -182,60 +172,6 @@ private:
     TriangulationIndex index_;
     std::vector<std::uint32_t> boundary_cells_;  ///< per edge of the boundary; stands before it, which fills it
     NearestEdge boundary_, old_walls_, new_walls_;
-};
-
-/// Linear functions in the cells.
-class CellReconstruction {
-public:
-    explicit CellReconstruction(const Mesh& mesh)
-        : middles_(cell_middles(mesh)), cells_(mesh, std::vector<char>(middles_.size(), 1)) {}
-
-    /// Returns the gradient of a field in each cell.
-    std::vector<Point> gradients(const std::vector<double>& values) const {
-        std::vector<Point> result(middles_.size());
-        core::parallel_for(result.size(), grain, [&](std::size_t begin, std::size_t end) {
-            std::vector<std::uint32_t> beside;
-            for (std::size_t cell = begin; cell < end; ++cell) {
-                find_neighbours(cell, beside);
-                result[cell] = gradient(cell, beside, values);
-            }
-        });
-        return result;
-    }
-    Point middle(std::size_t cell) const { return middles_[cell]; }
-
-private:
-    void find_neighbours(std::size_t cell, std::vector<std::uint32_t>& beside) const {
-        beside.clear();
-        for (const VertexId v : cells_.corners(cell)) {
-            const auto at = cells_.at(v.index());
-            beside.insert(beside.end(), at.begin(), at.end());
-        }
-        std::sort(beside.begin(), beside.end());
-        beside.erase(std::unique(beside.begin(), beside.end()), beside.end());
-    }
-    Point gradient(std::size_t cell, const std::vector<std::uint32_t>& beside,
-                   const std::vector<double>& values) const {
-        double xx = 0, xy = 0, yy = 0, xf = 0, yf = 0;
-        for (const std::uint32_t other : beside) {
-            const Point to = middles_[other] - middles_[cell];
-            const double squared = squared_length(to);
-            if (!(squared > 0)) continue;
-            const double difference = values[other] - values[cell];
-            xx += to.x * to.x / squared;
-            xy += to.x * to.y / squared;
-            yy += to.y * to.y / squared;
-            xf += to.x * difference / squared;
-            yf += to.y * difference / squared;
-        }
-        constexpr double on_one_line = 1e-12;
-        const double determinant = xx * yy - xy * xy, trace = xx + yy;
-        if (!(determinant > on_one_line * trace * trace)) return {0, 0};
-        return {(yy * xf - xy * yf) / determinant, (xx * yf - xy * xf) / determinant};
-    }
-
-    std::vector<Point> middles_;
-    VertexCells cells_;
 };
 
 std::vector<double> values_at(const std::vector<double>& values, const std::vector<Stencil>& stencils) {

@@ -160,6 +160,11 @@ public:
         aim_ = vertices;
         return found;
     }
+    /// Returns the viscosity over the speed of the free stream; nothing without a Reynolds number.
+    std::optional<double> viscosity() const {
+        if (!conditions_.reynolds) return {};
+        return conditions_.chord / *conditions_.reynolds;
+    }
     /// Returns the growth of sizes that the number of vertices leads to.
     double gradation() const { return options_.sizing.gradation; }
     MeshResult make(const std::shared_ptr<const SizedMesh>& sizes) const {
@@ -317,8 +322,15 @@ private:
         // A mesh with few vertices needs sizes that grow fast.
         options.gradation = std::max(options.gradation, mesher_->gradation());
         const std::vector<std::string> fields = settings_.fields.empty() ? solver_.usual_fields() : settings_.fields;
+        const std::string velocity = solver_.velocity(folder_of(i - 1));
+        std::vector<std::string> needed = fields;
+        if (mesher_->viscosity() && !velocity.empty()) {
+            options.walls = WallFlowOptions{velocity, *mesher_->viscosity()};
+            options.keep_borders = false;
+            for (const char* component : {":x", ":y"}) needed.push_back(velocity + component);
+        }
         const SolutionSizes made =
-            solution_sizes(solver_.read(folder_of(i - 1), fields), options, [&](const SizedMesh& sizes) {
+            solution_sizes(solver_.read(folder_of(i - 1), needed), options, [&](const SizedMesh& sizes) {
                 return mesher_->make(std::make_shared<const SizedMesh>(sizes)).mesh.points.size();
             });
         std::string errors;

@@ -113,6 +113,7 @@ public:
         if (solver_ == FlowSolver::su2) return {"Mach", "Pressure"};
         return {"mag(U)", "p"};
     }
+    std::string velocity(const fs::path&) const override { return solver_ == FlowSolver::su2 ? "Momentum" : "U"; }
     std::string command() const override { return "Allrun"; }
     void prepare(MeshCase& mesh_case) override { prepare_case(solver_, options_, mesh_case); }
     std::vector<Warning> warnings(const MeshResult& result) const override {
@@ -176,6 +177,12 @@ public:
 
     void require_programs() const override { require_program(words_.front()); }
     std::vector<std::string> usual_fields() const override { return {"Mach", "Pressure"}; }
+    std::string velocity(const fs::path& folder) const override {
+        const std::vector<std::string> fields = solution_fields(solution_in(folder));
+        for (const char* name : {"Velocity", "U", "Momentum"})
+            if (std::find(fields.begin(), fields.end(), std::string(name) + ":x") != fields.end()) return name;
+        return "";
+    }
     std::string command() const override { return fmt::format("{}", fmt::join(words_, " ")); }
     void prepare(MeshCase&) override {}
     std::vector<Warning> warnings(const MeshResult&) const override { return {}; }

@@ -32,10 +32,19 @@ namespace lamina::app {
 namespace {
 
 struct SizesArguments {
-    std::string solution, mesh, case_file, output;
+    std::string solution, mesh, case_file, velocity, output;
     std::vector<std::string> fields;
     std::map<std::string, std::string> options;  ///< values by the names of option_table<SolutionSizeOptions>()
 };
+
+/// Returns what is known of the flow along walls, by the conditions of a case. Throws UsageError where it has no Reynolds number.
+WallFlowOptions wall_flow_of(const std::string& velocity, const MeshCase& mesh_case) {
+    const CaseOptions options = options_with_files(mesh_case);
+    const ReferenceConditions conditions =
+        reference_conditions(options.conditions, reference_box(read_geometry(mesh_case.inputs, options.geometry)));
+    if (!conditions.reynolds) throw UsageError("option --velocity needs a case with a Reynolds number");
+    return {velocity, conditions.chord / *conditions.reynolds};
+}
 
 /// Returns the function that makes the next mesh by a case file, and counts its vertices.
 VertexCount count_by_case(const MeshCase& mesh_case) {
@@ -98,12 +107,17 @@ void sizes(const SizesArguments& arguments) {
     require_distinct(inputs, outputs);
     check_folder_writable(arguments.output);
     VertexCount count;
+    std::vector<std::string> fields = arguments.fields;
     if (mesh_case) {
         count = count_by_case(*mesh_case);
         options.keep_borders = false;
     }
+    if (!arguments.velocity.empty()) {
+        options.walls = wall_flow_of(arguments.velocity, *mesh_case);
+        for (const char* component : {":x", ":y"}) fields.push_back(arguments.velocity + component);
+    }
     const SignalGuard guard(outputs);
-    const Solution solution = read_solution(arguments.solution, arguments.fields, arguments.mesh);
+    const Solution solution = read_solution(arguments.solution, fields, arguments.mesh);
     const SolutionSizes made = solution_sizes(solution, options, count);
     write_sizes(made.sizes, arguments.output);
     print_summary(sizes_summary(made, arguments, options.vertices, !solution.mesh.region.empty()), outputs);
@@ -138,6 +152,12 @@ void add_sizes_command(CLI::App& app) {
                      "case file of the next mesh (lamina mesh --dump-config), which is made to count its vertices; "
                      "sizes may then divide the borders of layers, too; else the layers are those of the solution")
         ->type_name("FILE");
+    command
+        ->add_option(
+            "--velocity", arguments->velocity,
+            "vectors of velocity or momentum: walls get spacings, first heights and layers by the solution, too")
+        ->type_name("NAME")
+        ->needs(command->get_option("--case"));
     command
         ->add_option("-o,--output", arguments->output,
                      "VTU file to write, for lamina mesh --background; - for standard output")

@@ -33,6 +33,7 @@ namespace {
 SizedMesh make_sized_mesh(const PointValues& read, const std::filesystem::path& file) {
     SizedMesh result;
     result.gradation = read.gradation;
+    result.walls = read.walls;
     result.triangles = read.mesh.triangles;
     for (const Quad& quad : read.mesh.quads) {
         result.triangles.push_back({{quad.v[0], quad.v[1], quad.v[2]}});

@@ -1,12 +1,14 @@
 // Sizes at the vertices of a mesh, as the readers of formats find them.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <lamina/mesh.hpp>
+#include <lamina/sizing.hpp>
 
 namespace lamina::io {
 
@@ -15,10 +17,16 @@ struct PointValues {
     Mesh mesh;
     std::vector<double> values;
     std::optional<double> gradation{};  ///< SizedMesh::gradation
+    std::vector<SizedWall> walls{};     ///< SizedMesh::walls
 };
 
 /// The field data of VTU files that hold it.
 inline constexpr const char* gradation_array = "FieldData/lamina_size_gradation";
+
+/// The names of the field data of SizedMesh::walls in VTU files: the number of points of each, and for each point its
+/// coordinates, spacing, unit and thickness.
+inline constexpr const char *wall_sizes_array = "lamina_wall_points", *wall_rows_array = "lamina_wall_rows";
+inline constexpr std::size_t numbers_of_wall_row = 5;
 
 /// Returns the name of the array that holds the sizes: `size`, or else the only scalar array. Throws InputError where
 /// there is neither.

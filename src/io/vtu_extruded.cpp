@@ -111,7 +111,7 @@ void write_vtu_extruded(const MeshView& mesh, const Extrusion& extrusion, bool c
 
     VtuWriter vtu(compressed);
     vtu.xml = vtu_head(compressed);
-    add_vtu_field_data(named, {}, {}, vtu);
+    add_vtu_field_data(named, {}, nullptr, vtu);
     vtu.xml +=
         fmt::format("    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n      <CellData>\n", nodes, cells.count());
     if (!mesh.region.empty())

@@ -95,7 +95,7 @@ public:
         const std::size_t cells = inner + marker_of_line.size();
         VtuWriter vtu(false);
         vtu.xml = vtu_head(false);
-        add_vtu_field_data(frame.markers, frame.constraints, {}, vtu);
+        add_vtu_field_data(frame.markers, frame.constraints, nullptr, vtu);
         vtu.xml +=
             fmt::format("    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", frame.counts.vertices, cells);
         vtu.xml += "      <CellData>\n";

@@ -106,6 +106,36 @@ public:
         if (!(gradation > 0 && std::isfinite(gradation))) xml_.fail("the gradation of sizes is not positive");
         return gradation;
     }
+    /// Returns the walls that the file holds.
+    std::vector<SizedWall> walls() const {
+        std::vector<SizedWall> walls;
+        const std::string folder = "FieldData/";
+        if (!xml_.has(folder + wall_sizes_array)) return walls;
+        const auto counts = xml_.values<std::int64_t>(folder + wall_sizes_array);
+        std::size_t points = 0;
+        for (const std::int64_t count : counts) {
+            if (count < 3 || count > static_cast<std::int64_t>(xml_.size(folder + wall_rows_array)))
+                xml_.fail("the numbers of points of its walls do not fit");
+            points += static_cast<std::size_t>(count);
+        }
+        const auto rows = xml_.values<double>(folder + wall_rows_array, numbers_of_wall_row * points);
+        std::size_t at = 0;
+        for (const std::int64_t count : counts) {
+            SizedWall& wall = walls.emplace_back();
+            for (std::int64_t i = 0; i < count; ++i, at += numbers_of_wall_row) {
+                const double* row = rows.data() + at;
+                wall.points.push_back({row[0], row[1]});
+                wall.spacings.push_back(row[2]);
+                wall.units.push_back(row[3]);
+                wall.thicknesses.push_back(row[4]);
+                const bool positive = row[2] > 0 && row[3] > 0 && row[4] >= 0;
+                if (!positive ||
+                    !std::all_of(row, row + numbers_of_wall_row, [](double x) { return std::isfinite(x); }))
+                    xml_.fail("a number of its walls is not finite and positive");
+            }
+        }
+        return walls;
+    }
     /// Returns a field of the points or, where they have none of this name, of the cells. Precondition: read().
     SolutionField field(const FieldRequest& request) const {
         const std::string at_points = "PointData/" + request.array, at_cells = "CellData/" + request.array;
@@ -262,8 +292,10 @@ void read_vtu_arrays(const std::filesystem::path& file, MeshArrays& arrays) {
 PointValues read_vtu_sizes(const std::string& bytes, const std::filesystem::path& file) {
     VtuReader<Mesh> reader(bytes, file, VtuReader<Mesh>::Writer::anyone);
     const std::optional<double> gradation = reader.gradation();
+    std::vector<SizedWall> walls = reader.walls();
     PointValues result = read_point_values(std::move(reader));
     result.gradation = gradation;
+    result.walls = std::move(walls);
     return result;
 }
 

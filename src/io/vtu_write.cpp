@@ -11,7 +11,7 @@
 //   field data   marker_names (UTF-8, with a zero byte behind each name, since not every reader knows strings),
 //                marker_kinds (in the order of MarkerKind), constraints (pairs of points)
 //   point data   wall_distance where it is asked for; vertex in parts of a mesh (pvtu_write.cpp)
-// Files of sizes have the point data size and, where it is known, the field data lamina_size_gradation.
+// Files of sizes have the point data size and, where they are known, the field data lamina_size_gradation and those of walls.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,6 +25,7 @@
 #include <lamina/error.hpp>
 
 #include "io/formats.hpp"
+#include "io/sizes.hpp"
 #include "io/vtk_cell_types.hpp"
 #include "io/vtu_writer.hpp"
 #include "mesh/quality.hpp"
@@ -150,12 +151,12 @@ void add_cells(const VtuCells& cells, VtuWriter& vtu) {
     vtu.xml += "      </Cells>\n";
 }
 
-void write_grid(const MeshView& mesh, const AddData& add_point_data, bool compressed,
-                std::optional<double> size_gradation, std::ostream& out, const AddData& add_to_cells = {}) {
+void write_grid(const MeshView& mesh, const AddData& add_point_data, bool compressed, const SizedMesh* sizes,
+                std::ostream& out, const AddData& add_to_cells = {}) {
     const VtuCells cells(mesh);
     VtuWriter vtu(compressed);
     vtu.xml = vtu_head(compressed);
-    add_vtu_field_data(mesh.markers, mesh.constraints, size_gradation, vtu);
+    add_vtu_field_data(mesh.markers, mesh.constraints, sizes, vtu);
     vtu.xml +=
         fmt::format("    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", mesh.points.size(), cells.count());
     add_point_data(vtu);
@@ -164,6 +165,22 @@ void write_grid(const MeshView& mesh, const AddData& add_point_data, bool compre
     add_cells(cells, vtu);
     vtu.xml += "    </Piece>\n  </UnstructuredGrid>\n";
     vtu.write(out);
+}
+
+/// Adds the number of points of each wall, and a row of numbers for each point.
+void add_walls(const std::vector<SizedWall>& walls, VtuWriter& vtu) {
+    constexpr bool in_field_data = true;
+    std::vector<double> rows;
+    for (const SizedWall& wall : walls)
+        for (std::size_t i = 0; i < wall.points.size(); ++i)
+            rows.insert(rows.end(),
+                        {wall.points[i].x, wall.points[i].y, wall.spacings[i], wall.units[i], wall.thicknesses[i]});
+    vtu.add_array<std::int64_t>(
+        wall_sizes_array, walls.size(), 1,
+        [walls](std::size_t i) { return static_cast<std::int64_t>(walls[i].points.size()); }, in_field_data);
+    vtu.add_array<double>(
+        wall_rows_array, rows.size() / numbers_of_wall_row, numbers_of_wall_row,
+        [rows](std::size_t i) { return rows[i]; }, in_field_data);
 }
 
 }  // namespace
@@ -176,8 +193,8 @@ std::string vtu_head(bool compressed) {
         compressed ? " compressor=\"vtkZLibDataCompressor\"" : "");
 }
 
-void add_vtu_field_data(std::span<const Marker> markers, std::span<const Segment> constraints,
-                        std::optional<double> size_gradation, VtuWriter& vtu) {
+void add_vtu_field_data(std::span<const Marker> markers, std::span<const Segment> constraints, const SizedMesh* sizes,
+                        VtuWriter& vtu) {
     std::string names;
     for (const Marker& marker : markers) names += marker.name + '\0';
     vtu.xml += "    <FieldData>\n";
@@ -193,15 +210,16 @@ void add_vtu_field_data(std::span<const Marker> markers, std::span<const Segment
         in_field_data);
     vtu.add_array<std::uint8_t>(
         "marker_kinds", markers.size(), 1, [markers](std::size_t i) { return markers[i].kind; }, in_field_data);
-    if (size_gradation)
+    if (sizes != nullptr && sizes->gradation)
         vtu.add_array<double>(
-            "lamina_size_gradation", 1, 1, [size_gradation](std::size_t) { return *size_gradation; }, in_field_data);
+            "lamina_size_gradation", 1, 1, [sizes](std::size_t) { return *sizes->gradation; }, in_field_data);
+    if (sizes != nullptr && !sizes->walls.empty()) add_walls(sizes->walls, vtu);
     vtu.xml += "    </FieldData>\n";
 }
 
 void write_vtu(const MeshView& mesh, VtuVariant variant, std::ostream& out) {
     const std::vector<double> distances = variant.wall_distance ? wall_distances(mesh) : std::vector<double>{};
-    write_grid(mesh, point_data("wall_distance", distances), variant.compressed, {}, out);
+    write_grid(mesh, point_data("wall_distance", distances), variant.compressed, nullptr, out);
 }
 
 void write_vtu_part(const MeshView& part, std::span<const VertexId> vertices, std::ostream& out) {
@@ -211,7 +229,7 @@ void write_vtu_part(const MeshView& part, std::span<const VertexId> vertices, st
                                     [&](std::size_t i) { return std::int64_t{vertices[i].value}; });
         vtu.xml += "      </PointData>\n";
     };
-    write_grid(part, add_ids, false, {}, out);
+    write_grid(part, add_ids, false, nullptr, out);
 }
 
 void write_vtu_solution(const Solution& solution, std::ostream& out) {
@@ -222,14 +240,14 @@ void write_vtu_solution(const Solution& solution, std::ostream& out) {
     };
     const std::size_t cells = VtuCells(solution.mesh).count();
     const auto at_cells = [&](VtuWriter& vtu) { add_fields(solution.fields, true, cells, vtu); };
-    write_grid(solution.mesh, at_points, true, {}, out, at_cells);
+    write_grid(solution.mesh, at_points, true, nullptr, out, at_cells);
 }
 
 void write_vtu_sizes(const SizedMesh& sizes, std::ostream& out) {
     Mesh mesh;
     mesh.points = sizes.points;
     mesh.triangles = sizes.triangles;
-    write_grid(mesh, point_data("size", sizes.sizes), true, sizes.gradation, out);
+    write_grid(mesh, point_data("size", sizes.sizes), true, &sizes, out);
 }
 
 }  // namespace lamina::io

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include <lamina/mesh.hpp>
+#include <lamina/sizing.hpp>
 
 #include "core/parallel.hpp"
 #include "io/binary_output.hpp"
@@ -148,8 +149,8 @@ inline VtkCellType vtu_type(std::size_t i, std::size_t triangles, std::size_t in
 /// Returns the tags before the field data.
 std::string vtu_head(bool compressed);
 
-/// Adds the names and kinds of the markers, the constraints and, where it is known, the gradation of sizes.
-void add_vtu_field_data(std::span<const Marker> markers, std::span<const Segment> constraints,
-                        std::optional<double> size_gradation, VtuWriter& vtu);
+/// Adds the names and kinds of the markers, the constraints and, where they are known, the gradation of sizes and the walls.
+void add_vtu_field_data(std::span<const Marker> markers, std::span<const Segment> constraints, const SizedMesh* sizes,
+                        VtuWriter& vtu);
 
 }  // namespace lamina::io

@@ -17,17 +17,21 @@ namespace lamina::pipeline {
 /// has boundary layers.
 std::vector<double> first_heights_of_flow(const Flow& flow, double y_plus, double reynolds);
 
-/// Layers are this many times as thick as the boundary layer, which solvers find up to a fifth thicker. Some of it is
-/// lost where the front is smoothed.
+/// Layers are made thicker than the boundary layer by this factor, since some height is lost where the front is smoothed.
+inline constexpr double lost_to_smoothing = 1.125;
+/// Layers are this many times as thick as the boundary layer before the mesh, which solvers find up to a fifth thicker.
 inline constexpr double room_above = 1.35;
 
 /// Returns the heights that layers need along the walls: those of the boundary layers and some room above, never less
 /// than further upstream.
 std::vector<layers::WallHeight> heights_of_flow(const Flow& flow);
 
+/// Returns spacings at both corners of each base. The cells of the fan there are as wide as the first layer is high times the angle
+/// between rays. Layers that go on along the wake need none.
+std::vector<geometry::WallSpacing> spacings_at_bases(const Flow& flow, const layers::LayerGrowth& growth);
+
 /// Returns spacings of the walls with which the speed of the flow changes little from one vertex to the next: at the
-/// stagnation point, and on both sides of a suction peak. Spacings at the corners of bases follow from the first heights.
-/// All others are divided by LayerGrowth::fineness.
+/// stagnation point, and on both sides of a suction peak. They are divided by LayerGrowth::fineness.
 std::vector<geometry::WallSpacing> spacings_of_flow(const Flow& flow, const layers::LayerGrowth& growth);
 
 /// Returns the smallest of these spacings on each resampled element.

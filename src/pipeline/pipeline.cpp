@@ -16,6 +16,7 @@
 #include "pipeline/internal_lines.hpp"
 #include "pipeline/mesh_limits.hpp"
 #include "pipeline/mesh_stages.hpp"
+#include "pipeline/solution_guidance.hpp"
 #include "sizing/requests.hpp"
 
 namespace lamina::pipeline {
@@ -113,6 +114,9 @@ MadeMesh run(const Geometry& whole, CaseOptions options, MeshDriver& driver, Sta
                                           guidance.sources.end());
         clock.end(&StageSeconds::flow);
     }
+
+    if (options.sizing.background && !options.sizing.background->walls.empty())
+        guide_by_solution(options.sizing.background->walls, given, options.layer, conditions, guidance, growth);
 
     clock.begin("surface");
     PreparedWalls walls = prepare_walls(given, options, conditions, growth, guidance.spacings, budget);

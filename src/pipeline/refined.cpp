@@ -99,6 +99,8 @@ void refine_sizing(double ratio, SizingOptions& sizing) {
     auto background = std::make_shared<SizedMesh>(*sizing.background);
     for (double& size : background->sizes) size /= ratio;
     if (background->gradation) *background->gradation /= ratio;
+    for (SizedWall& wall : background->walls)
+        for (double& spacing : wall.spacings) spacing /= ratio;
     sizing.background = std::move(background);
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <lamina/io.hpp>
+#include <lamina/mesh.hpp>
 #include <lamina/solution.hpp>
 
 #include "app/program.hpp"
@@ -72,6 +73,22 @@ TEST(AdaptCommand, ClosesTheLoopAndGoesOnWhereItWas) {
     std::filesystem::rename(folder / "elsewhere", folder / "loop/round_0");
     folder.write("loop/round_0/round.json", "{}");
     EXPECT_EQ(run_lamina(folder, adapt()).exit_code, bad_input);
+}
+
+TEST(AdaptCommand, WallsFollowTheSolutionWhereTheReynoldsNumberIsKnown) {
+    const TemporaryFolder folder;
+    folder.write("so lve.sh", script(""));
+    std::vector<std::string> arguments = adapt({"--reynolds", "1e6"});
+    *std::find(arguments.begin(), arguments.end(), "7000") = "12000";
+    const ProgramRun run = run_lamina(folder, arguments);
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const SizedMesh sizes = read_sizes(folder / "loop/round_1/sizes.vtu");
+    ASSERT_EQ(sizes.walls.size(), 1u);
+    const Mesh before = read_mesh(folder / "loop/round_0/mesh.vtu"),
+               after = read_mesh(folder / "loop/round_1/mesh.vtu");
+    EXPECT_EQ(sizes.walls[0].points.size(), wall_vertices(before).vertex.size());
+    EXPECT_EQ(check_mesh(after).defect_count, 0u);
+    EXPECT_NE(wall_vertices(after).first_height, wall_vertices(before).first_height);
 }
 
 TEST(AdaptCommand, AFailedRoundLeavesThoseBefore) {

@@ -57,6 +57,12 @@ TEST(SizesCommand, RefusesWhatItCannotUse) {
         {"sizes", "solution.vtu", "--field", "size", "--vertices", "14000", "--case", "case.toml", "-o", "case.toml"},
         usage, "would replace");
     EXPECT_EQ(folder.read("case.toml"), "input = \"naca:0012\"\n");
+    const std::vector<std::string> velocity{"sizes", "solution.vtu", "--field", "size", "--vertices",
+                                            "14000", "--velocity",   "U",       "-o",   "sizes.vtu"};
+    expect_refused(folder, velocity, usage, "--velocity requires --case");
+    std::vector<std::string> by_case = velocity;
+    by_case.insert(by_case.end(), {"--case", "case.toml"});
+    expect_refused(folder, by_case, usage, "option --velocity needs a case with a Reynolds number");
     std::filesystem::create_directories(folder / "case/1000");
     std::filesystem::create_directories(folder / "case/constant/polyMesh");
     for (const char* file : {"case/1000/U", "case/constant/polyMesh/points"}) {

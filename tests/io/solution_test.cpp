@@ -260,12 +260,27 @@ TEST(Solution, SizesAreReadBackAsWritten) {
     for (const Point p : mesh.points) sizes.sizes.push_back(0.1 + length(p));
     for (const std::optional<double> gradation : {std::optional<double>(), std::optional<double>(0.2)}) {
         sizes.gradation = gradation;
+        if (gradation) sizes.walls = {{{{0, 0}, {0.1, 0}, {0, 0.1}}, {0.3, 0.2, 0.1}, {1e-6, 2e-6, 1. / 3}, {0, 2, 3}}};
         write_sizes(sizes, folder / "sizes.vtu");
         const SizedMesh read = read_sizes(folder / "sizes.vtu");
         EXPECT_EQ(read.points, sizes.points);
         EXPECT_EQ(read.sizes, sizes.sizes);
         EXPECT_EQ(read.gradation, gradation);
+        ASSERT_EQ(read.walls.size(), sizes.walls.size());
+        for (std::size_t w = 0; w < read.walls.size(); ++w) {
+            EXPECT_EQ(read.walls[w].points, sizes.walls[w].points);
+            EXPECT_EQ(read.walls[w].spacings, sizes.walls[w].spacings);
+            EXPECT_EQ(read.walls[w].units, sizes.walls[w].units);
+            EXPECT_EQ(read.walls[w].thicknesses, sizes.walls[w].thicknesses);
+        }
         EXPECT_EQ(read.triangles.size(), sizes.triangles.size());
+    }
+    for (const SizedWall& bad : {SizedWall{{{0, 0}, {1, 0}}, {1, 1}, {1, 1}, {1, 1}},
+                                 SizedWall{{{0, 0}, {1, 0}, {0, 1}}, {1, 0, 1}, {1, 1, 1}, {1, 1, 1}},
+                                 SizedWall{{{0, 0}, {1, 0}, {0, 1}}, {1, 1, 1}, {1, NAN, 1}, {1, 1, 1}}}) {
+        sizes.walls = {bad};
+        write_sizes(sizes, folder / "sizes.vtu");
+        EXPECT_THROW(read_sizes(folder / "sizes.vtu"), InputError);
     }
 }
 
