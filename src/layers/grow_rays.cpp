@@ -17,6 +17,7 @@
 #include "layers/layer.hpp"
 #include "layers/layered_rays.hpp"
 #include "layers/mechanisms.hpp"
+#include "layers/parameters.hpp"
 #include "layers/room/truncation.hpp"
 #include "layers/stages.hpp"
 #include "layers/wake/wake_outline.hpp"
@@ -217,15 +218,25 @@ bool lower_first_layers(Rays& rays, Share share) {
 }
 
 /// Gives rays without room for a first layer a lower one, and first layers the room that they may take.
+///
+///     _______________     Below an opposite wall first layers of both sides would overlap all along the slot, which only
+///      ^ ^ ^ ^ ^ ^ ^      shows at its ends, where their fronts cross. They take half of the room that they may take beside
+///     _|_|_|_|_|_|_|_     a ray that crosses theirs.
+///
 void fit_first_layers(Rays& rays) {
-    constexpr double below_limit = 0.999;  // so that rounding does not take the layer away
+    constexpr double below_limit = 0.999;   // so that rounding does not take the layer away
+    constexpr double most_of_gap = 0.45;    // two of them leave a tenth
+    constexpr double share_in_slots = 0.5;  // of the room: what rays get where fronts meet (count_layers_on_all_rays)
     const std::vector<double> first = first_heights_along(rays.set, rays.growth);
-    lower_first_layers(rays, [&](std::size_t i) {
-        const double room = first_layer_room * rays.front[i];
-        return room < first[i] ? below_limit * room / first[i] : 1;
-    });
+    const std::vector<double> walls = wall_limits(rays.set, first);
+    std::vector<double> room(first.size());
+    for (std::size_t i = 0; i < room.size(); ++i) {
+        const bool meets = first[i] > most_of_gap / wall_fraction * walls[i];
+        room[i] = (meets ? share_in_slots : 1) * first_layer_room * rays.front[i];
+    }
+    lower_first_layers(rays, [&](std::size_t i) { return room[i] < first[i] ? below_limit * room[i] / first[i] : 1; });
     for (std::size_t i = 0; i < first.size(); ++i)
-        rays.limits[i] = std::max(rays.limits[i], std::min(first[i], first_layer_room * rays.front[i]));
+        rays.limits[i] = std::max(rays.limits[i], std::min(first[i], room[i]));
 }
 
 /// Counts the layers. Where fronts meet, rays that are left without any get first layers half as high, so that no wall

@@ -17,7 +17,7 @@ inline constexpr double wall_fraction = 0.375;
 inline constexpr double ray_fraction = 0.45;
 
 /// First layers may go beyond the limit by this factor, up to 0.75 of that height, so that walls in clefts are not bare.
-/// Neighbours keep a quarter of their distance.
+/// Neighbours keep a quarter of their distance. Below an opposite wall they may not.
 inline constexpr double first_layer_room = 0.75 / ray_fraction;
 
 /// Distance of the rays of a sample that looks for what is in the way, as a share of the largest height of the scale.

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ctime>
 #include <optional>
 #include <string>
 #include <utility>
@@ -222,6 +223,45 @@ TEST(FirstHeights, AreLowerInSlotsWithoutRoom) {
             }
             EXPECT_GT(lower, 10u);
         }
+}
+
+/// First layers on opposite walls that are wanted higher than half of the gap leave a third of it between them, however
+/// long the slot is against its width.
+TEST(FirstHeights, OfOppositeWallsLeaveRoomBetweenThem) {
+    for (const double gap : {0.01, 0.0008}) {
+        SCOPED_TRACE(gap);
+        const Outline plate = shapes::polygon({{0, 0}, {1, 0}, {1, 0.1}, {0, 0.1}});
+        const Outline below = shapes::moved(plate, 0, 0.8, {0.1, -gap - 0.08});
+        const Geometry plates = shapes::geometry({shapes::refined(plate, 400), shapes::refined(below, 500)});
+        LayerOptions options = test::layers_of(gap, 1.2, 8);
+        options.layers.reset();
+        const Layer layer = layer_with(plates, options, {gap, 1.1 * gap});
+        for (const std::vector<Ray>& rays : layer.rays)
+            for (const Ray& ray : rays) {
+                const Point at = layer.points[ray.origin.index()];
+                if (at.x < 0.2 || at.x > 0.8 || at.y > 0 || at.y < -1.5 * gap) continue;
+                ASSERT_GE(ray.layers, 1u) << at.x << ", " << at.y;
+                const double height = distance(at, layer.points[ray.vertex(ray.layers).index()]);
+                EXPECT_LE(height, 0.34 * gap) << at.x << ", " << at.y;
+                EXPECT_GE(height, 0.31 * gap) << at.x << ", " << at.y;
+            }
+    }
+}
+
+/// It takes time in proportion to the number of rays: one round in place of one for each ray of the slot.
+TEST(FirstHeights, OfOppositeWallsTakeLinearTime) {
+    const auto seconds = [](std::size_t parts) {
+        const Outline plate = shapes::polygon({{0, 0}, {1, 0}, {1, 0.1}, {0, 0.1}});
+        const Outline below = shapes::moved(plate, 0, 0.8, {0.1, -0.0008 - 0.08});
+        LayerOptions options = test::layers_of(8e-4, 1.2, 8);
+        options.layers.reset();
+        const std::clock_t start = std::clock();
+        layer_with(shapes::geometry({shapes::refined(plate, parts), shapes::refined(below, parts)}), options,
+                   {8e-4, 9e-4});
+        return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    };
+    const double few = seconds(400), many = seconds(3200);
+    EXPECT_LT(many, 5 * 8 * few);
 }
 
 /// Walls whose edges are far shorter than the first layer is high have it nevertheless, with the heights of a flow,

@@ -123,6 +123,15 @@ public:
         return limits;
     }
 
+    /// Returns the limits by walls alone, one per ray of the sample.
+    std::vector<double> wall_limits() const {
+        std::vector<double> limits(sample_.rays.size());
+        core::parallel_for(limits.size(), 64, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t k = begin; k < end; ++k) limits[k] = limit_by_walls(k);
+        });
+        return limits;
+    }
+
 private:
     const RaySet& set_;
     std::span<const double> asked_;
@@ -217,6 +226,12 @@ std::vector<double> height_limits(const RaySet& set, std::span<const double> ask
         high = std::min(2 * high, reach);
     }
     return limits;
+}
+
+std::vector<double> wall_limits(const RaySet& set, std::span<const double> asked) {
+    const RaySample all = sample_rays(set, 0, 0);
+    const std::vector<double> unknown(set.lines.size(), HUGE_VAL);
+    return ScaleSearch(set, asked, unknown, all, 0, HUGE_VAL).wall_limits();
 }
 
 }  // namespace lamina::layers
