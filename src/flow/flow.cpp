@@ -14,11 +14,11 @@
 #include "core/angles.hpp"
 #include "flow/boundary_layer.hpp"
 #include "flow/contour.hpp"
+#include "flow/corner_peaks.hpp"
 #include "flow/panel_system.hpp"
 #include "flow/potential.hpp"
 #include "flow/separation.hpp"
 #include "flow/sides.hpp"
-#include "geometry/sharp_corner.hpp"
 
 namespace lamina::flow {
 
@@ -98,24 +98,11 @@ void fall_back(Flow& flow, std::span<const Contour> contours, const Geometry& ge
                      defect.text, defect.at.x, defect.at.y, name)});
 }
 
-/// Returns the speeds along a side as its boundary layer meets them. At a sharp corner before the trailing edge, as the
-/// lip of a slat, potential flow is infinitely fast. Real flow leaves the wall there instead: within 1 % of the side
-/// from the corner, the speed counts as no more than the larger one at the ends of that stretch.
+/// Returns the speeds along a side as its boundary layer meets them.
 std::vector<EdgePoint> edge_speeds(const std::vector<FlowPoint>& side) {
-    constexpr double reach_share = 0.01;
-    const double reach = reach_share * side.back().s;
-    std::vector<EdgePoint> edge;
-    edge.reserve(side.size());
-    for (const FlowPoint& p : side) edge.push_back({p.s, p.speed});
-    for (std::size_t i = 1; i + 1 < side.size(); ++i) {
-        const double turning = core::angle_between(side[i].at - side[i - 1].at, side[i + 1].at - side[i].at);
-        if (std::abs(core::degrees(turning)) < geometry::sharp_corner_deg) continue;
-        std::size_t first = i, last = i;
-        while (first > 0 && side[i].s - side[first].s < reach) --first;
-        while (last + 1 < side.size() && side[last].s - side[i].s < reach) ++last;
-        const double most = std::max(side[first].speed, side[last].speed);
-        for (std::size_t k = first; k <= last; ++k) edge[k].speed = std::min(edge[k].speed, most);
-    }
+    const std::vector<double> speeds = without_corner_peaks(side, [](const FlowPoint& p) { return p.speed; });
+    std::vector<EdgePoint> edge(side.size());
+    for (std::size_t i = 0; i < side.size(); ++i) edge[i] = {side[i].s, speeds[i]};
     return edge;
 }
 

@@ -7,6 +7,7 @@
 
 #include <lamina/error.hpp>
 
+#include "flow/corner_peaks.hpp"
 #include "flow/euler/euler.hpp"
 #include "pipeline/shock_sizes.hpp"
 
@@ -37,6 +38,21 @@ void add_heights(const std::vector<FlowPoint>& side, std::size_t element, double
         heights.push_back({element, point.at, height});
     }
     if (reversed) std::reverse(heights.begin() + first, heights.end());
+}
+
+/// Adds spacings where the pressure changes along a side, but for the peaks at its corners.
+void add_pressure_changes(const std::vector<FlowPoint>& side, std::size_t element, double chord, double fineness,
+                          std::vector<geometry::WallSpacing>& spacings) {
+    const std::vector<double> speeds = flow::without_corner_peaks(side, [](const FlowPoint& p) { return p.speed; });
+    const std::vector<double> suction =
+        flow::without_corner_peaks(side, [](const FlowPoint& p) { return -p.pressure_coefficient; });
+    for (std::size_t i = 1; i < side.size(); ++i) {
+        const FlowPoint &a = side[i - 1], &b = side[i];
+        const double change = std::abs(suction[i] - suction[i - 1]),
+                     allowed = max_change * std::max({speeds[i - 1], speeds[i], 1.0});
+        const double spacing = std::max(allowed * (b.s - a.s) / change, min_spacing * chord) / fineness;
+        if (spacing < b.s) spacings.push_back({element, a.at, b.at, spacing});
+    }
 }
 
 /// Adds what the shocks of compressible flow ask for. Where it is too fast to solve, and where no mesh can be made to solve
@@ -90,14 +106,7 @@ std::vector<geometry::WallSpacing> spacings_of_flow(const Flow& flow, const laye
     std::vector<geometry::WallSpacing> spacings;
     for (std::size_t e = 0; e < flow.elements.size(); ++e)
         for (const auto* side : {&flow.elements[e].upper, &flow.elements[e].lower})
-            for (std::size_t i = 1; i < side->size(); ++i) {
-                const FlowPoint &a = (*side)[i - 1], &b = (*side)[i];
-                const double change = std::abs(b.pressure_coefficient - a.pressure_coefficient),
-                             allowed = max_change * std::max({a.speed, b.speed, 1.0});
-                const double spacing =
-                    std::max(allowed * (b.s - a.s) / change, min_spacing * flow.chord) / growth.fineness;
-                if (spacing < b.s) spacings.push_back({e, a.at, b.at, spacing});
-            }
+            add_pressure_changes(*side, e, flow.chord, growth.fineness, spacings);
     return spacings;
 }
 

@@ -9,6 +9,7 @@
 #include <random>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <lamina/geometry.hpp>
@@ -121,6 +122,21 @@ inline Outline plate(double thickness, std::size_t nose_points) {
     }
     outline.insert(outline.end(), {{1, -r}, {1, r}});
     return outline;
+}
+
+/// Returns Koch's snowflake of 12 x 4^(level - 1) sides between its tips at a distance of 1 from the origin.
+inline Outline snowflake(int level) {
+    Outline sides{{1, 0}, {-0.5, std::sqrt(0.75)}, {-0.5, -std::sqrt(0.75)}};
+    for (int k = 0; k < level; ++k) {
+        Outline finer;
+        for (std::size_t i = 0; i < sides.size(); ++i) {
+            const Point a = sides[i], b = sides[(i + 1) % sides.size()], third = (1.0 / 3) * (b - a);
+            const Point tip = midpoint(a, b) - std::sqrt(0.75) * perpendicular(third);
+            for (const Point p : {a, a + third, tip, b - third}) finer.push_back(p);
+        }
+        sides = std::move(finer);
+    }
+    return sides;
 }
 
 /// Returns a random polygon that is star-shaped about the origin, hence simple; its radii lie from min_radius to 1.

@@ -288,26 +288,11 @@ TEST(AutomaticSurface, TakesAsManyPointsAsTheWallNeedsWhereItReplacesThem) {
     EXPECT_LT(e.points.size(), 250u) << e.surface_notes.back();
 }
 
-/// Returns Koch's snowflake of 12 x 4^(level - 1) sides between its tips at a distance of 1 from the origin.
-Outline snowflake(int level) {
-    Outline sides{{1, 0}, {-0.5, std::sqrt(0.75)}, {-0.5, -std::sqrt(0.75)}};
-    for (int k = 0; k < level; ++k) {
-        Outline finer;
-        for (std::size_t i = 0; i < sides.size(); ++i) {
-            const Point a = sides[i], b = sides[(i + 1) % sides.size()], third = (1.0 / 3) * (b - a);
-            const Point tip = midpoint(a, b) - std::sqrt(0.75) * perpendicular(third);
-            for (const Point p : {a, a + third, tip, b - third}) finer.push_back(p);
-        }
-        sides = std::move(finer);
-    }
-    return sides;
-}
-
 /// Sides of 1, 2 and 8 edges, of up to 9.6 % of the body, in spite of the largest spacing of 2 %.
 TEST(AutomaticSurface, DividesTheSidesOfASnowflakeAlike) {
     for (const int level : {2, 3})
         for (const double max_spacing : {0.02, 0.005}) {
-            const Outline given = snowflake(level);
+            const Outline given = shapes::snowflake(level);
             SurfaceOptions options;
             options.max_spacing = max_spacing;
             const Element e = prepared(given, options);
