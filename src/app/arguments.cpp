@@ -115,8 +115,9 @@ std::string values_of(const CLI::Option& option) {
 }
 
 /// Throws UsageError where an option that wants a value is followed by the name of an option of the same command, or by
-/// nothing. CLI11 would take that name for the value, and the next value for an input. Numbers such as -5, and - for
-/// standard streams, are no names. Arguments behind -- are not looked at.
+/// nothing. CLI11 would take that name for the value, and the next value for an input, and so it would with the word behind
+/// --report=, an input that the report would replace. Numbers such as -5, and - for standard streams, are no names. Arguments
+/// behind -- are not looked at.
 void require_values(const CLI::App& app, const std::vector<std::string>& arguments) {
     const CLI::App* command = nullptr;
     for (const CLI::App* each : app.get_subcommands({}))
@@ -125,16 +126,19 @@ void require_values(const CLI::App& app, const std::vector<std::string>& argumen
     const auto option_named = [&](const std::string& word) -> const CLI::Option* {
         return word.size() > 1 && word.starts_with("-") ? command->get_option_no_throw(word) : nullptr;
     };
+    const std::string help = " (see " + app.get_name() + " " + command->get_name() + " --help)";
     for (std::size_t i = 1; i < arguments.size() && arguments[i] != "--"; ++i) {
-        const CLI::Option* option = option_named(arguments[i]);
+        const bool is_empty = arguments[i].ends_with('=');
+        const std::string name = arguments[i].substr(0, arguments[i].size() - (is_empty ? 1 : 0));
+        const CLI::Option* option = option_named(name);
         if (option == nullptr || option->get_items_expected_min() == 0) continue;
+        if (is_empty) throw UsageError(name + ": the value is empty" + help);
         const std::string following = i + 1 < arguments.size() ? arguments[i + 1] : "";
         if (i + 1 < arguments.size() && option_named(following.substr(0, following.find('='))) == nullptr) {
             ++i;  // the value
             continue;
         }
-        throw UsageError(arguments[i] + " wants a value: " + values_of(*option) + " (see " + app.get_name() + " " +
-                         command->get_name() + " --help)");
+        throw UsageError(name + " wants a value: " + values_of(*option) + help);
     }
 }
 

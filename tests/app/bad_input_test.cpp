@@ -83,6 +83,12 @@ TEST(BadInput, EmptyValues) {
     expect_refused(folder, {"delaunay", "a.node", "--min-angle", ""}, usage, "--min-angle: the value is empty");
     expect_refused(folder, {"delaunay", "a.node", "--max-area="}, usage, "--max-area");
     expect_refused(folder, {"check", "a.node", "--wall", ""}, usage, "--wall: the value is empty");
+    // The word behind is no value: it may be an input, which the report would replace.
+    folder.write("b.dat", "b");
+    expect_refused(folder, {"mesh", "naca:0012", "-o", "out.su2", "--report=", "b.dat"}, usage,
+                   "--report: the value is empty");
+    expect_refused(folder, {"mesh", "naca:0012", "--names=", "-o", "out.su2"}, usage, "--names: the value is empty");
+    EXPECT_EQ(folder.read("b.dat"), "b");
 }
 
 TEST(BadInput, WakesAndSizeSources) {
