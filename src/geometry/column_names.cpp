@@ -20,12 +20,13 @@ struct NamedRole {
 };
 
 /// Names without what plain_name() takes away. An ordinate may be called z where z points up.
-constexpr std::array<NamedRole, 81> named_roles = {{
+constexpr std::array<NamedRole, 82> named_roles = {{
     {"x", ColumnRole::x},
     {"xcoord", ColumnRole::x},
     {"xcoordinate", ColumnRole::x},
     {"station", ColumnRole::x},
     {"abscissa", ColumnRole::x},
+    {"xc", ColumnRole::x},        // over the chord, or along the camber line
     {"points:0", ColumnRole::x},  // as ParaView names coordinates
     {"points0", ColumnRole::x},
     {"y", ColumnRole::y},
@@ -193,11 +194,15 @@ std::optional<std::size_t> column_with(const std::vector<ColumnRole>& roles, Col
     return static_cast<std::size_t>(std::find(roles.begin(), roles.end(), role) - roles.begin());
 }
 
-std::string unit_of_names(const std::vector<std::string>& names) {
-    for (const std::string& name : names)
-        if (std::string unit = unit_of_name(name); !unit.empty() && role_of(plain_name(name)) != ColumnRole::unknown)
-            return unit;
-    return {};
+std::vector<std::string> units_of_names(const std::vector<std::string>& names) {
+    std::vector<std::string> units;
+    for (const std::string& name : names) {
+        if (role_of(plain_name(name)) == ColumnRole::unknown) continue;
+        std::string unit = name.find("%") != std::string::npos ? "%" : unit_of_name(name);
+        if (!unit.empty() && std::find(units.begin(), units.end(), unit) == units.end())
+            units.push_back(std::move(unit));
+    }
+    return units;
 }
 
 std::string unit_of_text(std::string_view text) {

@@ -32,8 +32,8 @@ std::vector<ColumnRole> column_roles(const std::vector<std::string>& names);
 /// Returns the only column with this role, if there is one.
 std::optional<std::size_t> column_with(const std::vector<ColumnRole>& roles, ColumnRole role);
 
-/// Returns the name of the unit of length that stands beside the names of columns, as in "x [mm]"; empty for none.
-std::string unit_of_names(const std::vector<std::string>& names);
+/// Returns the names of the units that stand beside the names of columns, as in "x [mm]" and "x (%)", each once.
+std::vector<std::string> units_of_names(const std::vector<std::string>& names);
 
 /// Returns the name of the unit of length that a text is, perhaps in brackets: "mm" of "[mm]"; empty for other texts.
 std::string unit_of_text(std::string_view text);

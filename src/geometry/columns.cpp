@@ -122,18 +122,18 @@ bool is_table_of_unit_steps(const PointRun& run, const std::array<std::size_t, 3
 // ---- decision ------------------------------------------------------------------------------------------------------
 
 /// Returns whether the line of names above the coordinates can only be a header: one name for each column, and either x
-/// is among them or all of them are divided by separators, as those of the numbers are.
+/// is among them, or both thickness and camber, or all of them are divided by separators, as those of the numbers are.
 bool is_header(const CoordinateDocument& document, const std::vector<ColumnRole>& roles, std::size_t columns) {
     const std::vector<std::string>& names = document.column_names;
     const bool is_words = std::all_of(names.begin(), names.end(), [](const std::string& name) {
         return !name.empty() && (is_letter(name[0]) || static_cast<unsigned char>(name[0]) >= 0x80);
     });
     if (names.size() != columns || !is_words) return false;
-    const bool names_x = std::any_of(roles.begin(), roles.end(), [](ColumnRole role) {
-        return role == ColumnRole::x || role == ColumnRole::upper_x;
-    });
+    const auto has = [&](ColumnRole role) { return std::find(roles.begin(), roles.end(), role) != roles.end(); };
     if (columns == 2) return roles[0] == ColumnRole::x;  // a title of two words may end with x
-    return names_x || (document.names_have_separators && document.csv);
+    const bool names_thickness = has(ColumnRole::thickness) || has(ColumnRole::half_thickness);
+    return has(ColumnRole::x) || has(ColumnRole::upper_x) || (names_thickness && has(ColumnRole::camber)) ||
+           (document.names_have_separators && document.csv);
 }
 
 class ColumnChooser {

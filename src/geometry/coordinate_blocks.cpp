@@ -243,7 +243,12 @@ private:
         document_.column_names = row.names;
         document_.names_line = row.line;
         document_.names_have_separators = row.has_separators;
-        document_.unit = unit_of_names(row.names);
+        const std::vector<std::string> units = units_of_names(row.names);
+        if (units.size() > 1)
+            throw InputError({file_, row.line, {}},
+                             fmt::format("the header names different units, {} and {}: x and y need the same one",
+                                         units[0], units[1]));
+        document_.unit = units.empty() || units[0] == "%" ? std::string() : units[0];
     }
 
     /// Remembers a row without coordinates that may say how to read those that follow.

@@ -272,6 +272,7 @@ TEST(NamedTables, OfThicknessAndCamber) {
     const auto full = [&](std::size_t i) { return std::vector{s.x[i], s.thickness[i], s.camber[i]}; };
     const auto swapped = [&](std::size_t i) { return std::vector{s.camber[i], s.x[i], s.thickness[i]}; };
     const auto half = [&](std::size_t i) { return std::vector{s.x[i], s.camber[i], s.thickness[i] / 2}; };
+    const auto along_camber = [&](std::size_t i) { return std::vector{s.x[i], s.camber[i], s.thickness[i]}; };
     for (const bool falling : {false, true}) {
         for (const std::string header :
              {"x,thickness,camber", "x/c,t/c,f/c", "X [mm],Thickness [mm],Camber [mm]", "station,t,yc", "x/t,d/t,f/t"})
@@ -279,6 +280,8 @@ TEST(NamedTables, OfThicknessAndCamber) {
         EXPECT_EQ(parsed(s.file("camber,x,thickness", swapped, falling)).elements[0].points, s.outline());
         for (const std::string header : {"x,yc,yt", "x,y_c,y_t", "# x/c,camber,half-thickness", "x,camber,t/2"})
             EXPECT_EQ(parsed(s.file(header, half, falling)).elements[0].points, s.outline()) << header;
+        // No name says x alone, and no commas divide the names.
+        EXPECT_EQ(parsed(s.file("X_c Y_c thickness", along_camber, falling)).elements[0].points, s.outline());
     }
     EXPECT_TRUE(says(parsed(s.file("x,thickness,camber", full)).elements[0],
                      "line 2: table of x, thickness and camber (surfaces at camber +- thickness / 2)"));

@@ -109,6 +109,9 @@ TEST(Refusal, ColumnsOfUnknownNames) {
     expect_refusal("x,foo,bar\n" + rows, 1, "the header names 2 columns 'foo', 'bar', whose meaning is unknown");
     expect_refusal("pos,foo,bar\n" + rows, 1, "the header names 3 columns 'pos', 'foo', 'bar'");
     expect_refusal("# x,upper,bar\n" + rows, 1, "the header names a column 'bar'");
+    expect_refusal("title\nchord camber thickness\n0 0 0\n.3 .02 .1\n.6 .02 .08\n1 0 0\n", 2,
+                   "the header names a column 'chord'");
+    expect_refusal("x [mm],thickness [%],camber [%]\n" + rows, 1, "the header names different units, mm and %");
     expect_refusal("x,t,c\n" + rows, 1, "the header names a column 'c'");  // thickness, and perhaps camber
     expect_refusal("x,cp\n1,0\n0.5,0.1\n0,0\n0.5,-0.1\n1,0\n", 1, "the header names a column 'cp'");
 }
