@@ -14,6 +14,16 @@
 
 namespace lamina::geometry {
 
+bool leave_out_point(Drawing& drawing, const SpaceCurve& curve) {
+    const std::vector<Point3>& control = curve.control;
+    const auto is_first = [&](const Point3& p) {
+        return p.x == control[0].x && p.y == control[0].y && p.z == control[0].z;
+    };
+    if (!std::all_of(control.begin(), control.end(), is_first)) return false;
+    ++drawing.left_out["curves without length"];
+    return true;
+}
+
 void add_curve(Drawing& drawing, DrawnCurve curve, const std::string& what, const std::string& file) {
     drawing.control_points += curve.curve.control.size();
     if (drawing.curves.size() == max_drawn_curves || drawing.control_points > max_control_points)
@@ -22,6 +32,7 @@ void add_curve(Drawing& drawing, DrawnCurve curve, const std::string& what, cons
                                      max_drawn_curves, max_control_points));
     if (const std::string defect = defect_of(curve.curve); !defect.empty())
         throw InputError({file, curve.line, {}}, fmt::format("{}: {}", what, defect));
+    if (leave_out_point(drawing, curve.curve)) return;
     const auto is_beyond = [](const Point3& p) {
         return !(std::abs(p.x) <= max_exact_coordinate && std::abs(p.y) <= max_exact_coordinate &&
                  std::abs(p.z) <= max_exact_coordinate);

@@ -36,7 +36,11 @@ Drawing read_step(std::string_view text, const std::string& file);
 /// The largest numbers of curves and control points of a drawing. Blocks that are inserted again and again reach them.
 inline constexpr std::size_t max_drawn_curves = 1'000'000, max_control_points = 4'000'000;
 
-/// Adds a curve to a drawing. Throws InputError where it has a defect, which names `what` it is, or where a drawing has
+/// Returns whether a curve without defects is a point, which the drawing then counts as left out: as in a file that has
+/// nothing but the names of shapes, so that it takes no more memory than they do.
+bool leave_out_point(Drawing& drawing, const SpaceCurve& curve);
+
+/// Adds a curve to a drawing, unless it is a point. Throws InputError where it has a defect, which names `what` it is, or where a drawing has
 /// too many curves.
 void add_curve(Drawing& drawing, DrawnCurve curve, const std::string& what, const std::string& file);
 

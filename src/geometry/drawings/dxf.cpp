@@ -343,6 +343,7 @@ private:
         DrawnCurve drawn{std::move(curve), record.line, std::string(RecordView(record, file_).text(8))};
         if (const std::string defect = defect_of(drawn.curve); !defect.empty())
             throw InputError({file_, record.line, {}}, fmt::format("{}: {}", printable(record.type), defect));
+        if (leave_out_point(drawing_, drawn.curve)) return;
         block_->curves.push_back(std::move(drawn));
     }
 
