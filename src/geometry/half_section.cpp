@@ -32,10 +32,49 @@ std::size_t longest_edge(const SourcePoints& points) {
     return longest;
 }
 
-/// Returns a closed outline as a run that begins behind its longest edge and ends before it.
-SourcePoints opened_at_longest_edge(SourcePoints points) {
-    const auto start = static_cast<std::ptrdiff_t>(longest_edge(points)) + 1;
-    std::rotate(points.begin(), points.begin() + start % static_cast<std::ptrdiff_t>(points.size()), points.end());
+/// Points of a closed outline that follow each other.
+struct Stretch {
+    std::size_t first, count;
+};
+
+/// Returns the longest stretch of points that stand at this ordinate.
+Stretch longest_at(double y, const SourcePoints& points) {
+    const std::size_t n = points.size();
+    const double near = tolerance(points);
+    const auto is_there = [&](std::size_t i) { return std::abs(points[i % n].at.y - y) <= near; };
+    Stretch longest{0, 0};
+    for (std::size_t i = 0; i < n; ++i) {
+        if (!is_there(i) || is_there(i + n - 1)) continue;
+        std::size_t count = 1;
+        while (count < n && is_there(i + count)) ++count;
+        if (count > longest.count) longest = {i, count};
+    }
+    return longest;
+}
+
+/// Returns a closed outline as a run without the side that closes it: the points on the lowest or the highest ordinate, if
+/// these reach from end to end, else the longest edge.
+///
+///       _________               _________
+///     /           \           /           \       The run begins and ends where that side does, and has none of the
+///    |_._._._._._.__>        |              >     points between.
+///
+SourcePoints opened_at_axis(SourcePoints points) {
+    constexpr double min_share = 0.9;  // of the extent
+    const auto [lowest, highest] = std::minmax_element(
+        points.begin(), points.end(), [](const SourcePoint& a, const SourcePoint& b) { return a.at.y < b.at.y; });
+    const std::size_t n = points.size();
+    std::size_t begin = longest_edge(points) + 1, count = n;
+    for (const double y : {lowest->at.y, highest->at.y}) {
+        const Stretch axis = longest_at(y, points);
+        const std::size_t last = axis.first + axis.count - 1;
+        if (axis.count < 3 || axis.count == n) continue;
+        if (distance(points[axis.first].at, points[last % n].at) < min_share * extent(points)) continue;
+        begin = last;
+        count = n + 2 - axis.count;
+    }
+    std::rotate(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(begin % n), points.end());
+    points.resize(count);
     return points;
 }
 
@@ -61,7 +100,7 @@ bool is_closed_half(const SourcePoints& points) {
     constexpr double min_share = 0.9, max_step = 0.05;  // of the extent; longer edges at the nose draw no round one
     constexpr double min_slope = 1.7;                   // the tangent of about 60 degrees
     if (points.size() < 4) return false;
-    SourcePoints run = opened_at_longest_edge(points);
+    SourcePoints run = opened_at_axis(points);
     if (run.front().at.x > run.back().at.x) std::reverse(run.begin(), run.end());
     const Point nose = run.front().at, tail = run.back().at, step = run[1].at - nose;
     return tail.x - nose.x >= min_share * extent(run) && std::abs(tail.y - nose.y) <= tolerance(run) &&
@@ -73,7 +112,7 @@ SourcePoints mirrored_half(SourcePoints points, const std::string& file) {
     const InputPlace place{file, points.empty() ? 0 : points[0].line, {}};
     if (points.size() > 3 && points.front().at == points.back().at) {
         points.pop_back();
-        points = opened_at_longest_edge(std::move(points));
+        points = opened_at_axis(std::move(points));
     }
     const std::optional<double> line = symmetry_line(points);
     if (!line)

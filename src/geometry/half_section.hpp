@@ -14,10 +14,10 @@ namespace lamina::geometry {
 std::optional<double> symmetry_line(const std::vector<SourcePoint>& points);
 
 /// Returns whether a closed outline, whose first point is not repeated, is one half of a symmetric section that a
-/// straight edge closes: this edge runs along x from end to end, and a round nose is square to it.
+/// straight side closes: this side, of one edge or several, runs along x from end to end, and a round nose is square to it.
 bool is_closed_half(const std::vector<SourcePoint>& points);
 
-/// Returns the outline of a symmetric section of which `points` are one half, open or closed by an edge on the line of
+/// Returns the outline of a symmetric section of which `points` are one half, open or closed by edges on the line of
 /// symmetry. It is closed where the tail is sharp. Throws InputError, which names `file`, for other points.
 std::vector<SourcePoint> mirrored_half(std::vector<SourcePoint> points, const std::string& file);
 

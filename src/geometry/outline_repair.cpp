@@ -182,7 +182,7 @@ void warn_of_half(const SourcePoints& points, Element& element) {
     element.warnings.push_back({.code = WarningCode::half_section,
                                 .at = points[0].at,
                                 .message =
-                                    "one side is a single straight edge from nose to tail, as that of half a "
+                                    "one side is straight from nose to tail, as that of half a "
                                     "symmetric section: --mirror-half adds the other half (--close: it is whole)"});
 }
 

@@ -219,9 +219,15 @@ TEST(HalfSections, ThatAreClosedAreWarnedOf) {
         const double x = 1 - i * i / 400.0;
         text += fmt::format("{} {}\n", 1 - x, 0.2 * std::sqrt(1 - x) * x);
     }
-    const std::vector<Warning> warnings = of_text(text + "0 0\n").elements[0].warnings;
-    ASSERT_EQ(warnings.size(), 1u);
-    EXPECT_EQ(warnings[0].code, WarningCode::half_section);
+    GeometryOptions mirrored;
+    mirrored.mirror_half = true;
+    const std::vector<Point> whole = of_text(text + "0 0\n", mirrored).elements[0].points;
+    for (const std::string side : {"", "0.5 0\n", "0.9 0\n0.7 0\n0.4 1e-8\n0.1 0\n0.01 0\n"}) {
+        const std::vector<Warning> warnings = of_text(text + side + "0 0\n").elements[0].warnings;
+        ASSERT_EQ(warnings.size(), 1u) << side;
+        EXPECT_EQ(warnings[0].code, WarningCode::half_section);
+        EXPECT_EQ(of_text(text + side + "0 0\n", mirrored).elements[0].points, whole) << side;
+    }
     EXPECT_TRUE(of_text("car\n4 .3\n4 .9\n3 1.4\n.05 .75\n0 .3\n4 .3\n").elements[0].warnings.empty());
     EXPECT_TRUE(of_text("flat\n0 0\n0.2 0.06\n0.5 0.07\n1 0\n0 0\n").elements[0].warnings.empty());
 }
