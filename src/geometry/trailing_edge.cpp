@@ -29,9 +29,14 @@ std::optional<Base> find_base(std::span<const Point> points, std::span<const dou
     for (std::size_t i = 0; i < n; ++i) {
         if (!is_corner(i)) continue;
         std::size_t j = (i + 1) % n;
-        while (j != i && std::abs(core::degrees(turning[j])) < max_straight_deg) j = (j + 1) % n;
+        double length =
+            distance(points[i], points[j]);  // of the way: a fine outline turns so little all round its nose
+        while (j != i && std::abs(core::degrees(turning[j])) < max_straight_deg) {
+            length += distance(points[j], points[(j + 1) % n]);
+            j = (j + 1) % n;
+        }
         if (j == i || !is_corner(j)) continue;
-        const bool is_short = distance(points[i], points[j]) < max_length_share * core::longer_side(box);
+        const bool is_short = length < max_length_share * core::longer_side(box);
         const double x = midpoint(points[i], points[j]).x;
         if (!is_short || x <= rearmost) continue;
         base = {i, j};

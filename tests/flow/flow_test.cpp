@@ -186,6 +186,16 @@ Outline strongly_cambered(const Outline& section) {
     return bent;
 }
 
+/// As the smoothed points of scans.
+TEST(Flow, BluntSectionsOfManyPointsAreSolved) {
+    for (const std::size_t points_a_side : {60, 5000}) {
+        const Geometry section = shapes::geometry({shapes::section(0.12, 0.0034, points_a_side)});
+        const Flow flow = solve_flow(section, {.alpha_deg = 4});
+        EXPECT_FALSE(flow.estimated) << points_a_side;
+        EXPECT_NEAR(flow.lift, 0.47, 0.02) << points_a_side;
+    }
+}
+
 TEST(Flow, AWallThatIsSteepBeforeTheTrailingEdgeIsNoBase) {
     for (const double base : {0.0, 0.002, 0.01}) {
         const Flow flow =

@@ -7,6 +7,7 @@
 
 #include <lamina/surface.hpp>
 
+#include "geometry/trailing_edge.hpp"
 #include "support/geometry_fixtures.hpp"
 #include "support/shapes.hpp"
 #include "surface/summary.hpp"
@@ -51,6 +52,15 @@ TEST(Summary, FindsTheTrailingEdge) {
     const auto trailing_edge = [](const shapes::Outline& outline) { return summary_of(outline).trailing_edge; };
     EXPECT_EQ(trailing_edge(shapes::section(0.12, 0, 40)), (Point{1, 0}));
     EXPECT_NEAR(distance(trailing_edge(shapes::section(0.12, 0.01, 40)), {1, 0}), 0, 1e-12);
+    // The outline of so many points turns as little all round the nose as along a base.
+    for (const std::size_t start : {0, 1, 5000}) {
+        const auto fine = shapes::started_at(shapes::section(0.12, 0.01, 5000), start);
+        OutlineFeatures features;
+        geometry::find_trailing_edge(fine, features);
+        ASSERT_TRUE(features.base);
+        EXPECT_LT(fine[features.base->first].y, 0) << start;
+        EXPECT_GT(fine[features.base->last].y, 0) << start;
+    }
     EXPECT_EQ(trailing_edge(shapes::circle(1, 60)), (Point{1, 0}));
     EXPECT_EQ(trailing_edge(shapes::diamond()), (Point{1, 0}));
     // Sharp and blunt flaps are deflected and scaled.
