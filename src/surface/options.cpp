@@ -172,6 +172,9 @@ void validate(const SurfaceOptions& options) {
         require_in_range(stations, station.station, station_key);
         require_in_range(positive_numbers, station.spacing, station_key);
     }
+    if (options.max_spacing < options.min_spacing)
+        throw OptionError("spacing_max", core::concat(options.max_spacing, " is below the smallest spacing of ",
+                                                      options.min_spacing, ", lengths of the element"));
     if (options.side_edges && options.points)
         throw OptionError(sides_key, "excludes a number of points of the outline");
     if (options.exact_points && !options.points) throw OptionError(exact_key, "needs a number of points");

@@ -498,7 +498,9 @@ TEST(SurfaceOptionsOutOfRange, AreRefused) {
     for (auto spoil : std::initializer_list<void (*)(SurfaceOptions&)>{
              [](SurfaceOptions& o) { o.points = 2; }, [](SurfaceOptions& o) { o.smooth = 0; },
              [](SurfaceOptions& o) { o.max_ratio = 1; }, [](SurfaceOptions& o) { o.max_turning_deg = 0; },
-             [](SurfaceOptions& o) { o.max_spacing = -1; }, [](SurfaceOptions& o) { o.tolerance = NAN; }}) {
+             [](SurfaceOptions& o) { o.max_spacing = -1; },
+             // Edges would be four times as long as the limit, in silence.
+             [](SurfaceOptions& o) { o.max_spacing = 5e-6; }, [](SurfaceOptions& o) { o.tolerance = NAN; }}) {
         SurfaceOptions options;
         spoil(options);
         EXPECT_THROW(prepare_surfaces(body, options), UsageError);
