@@ -265,8 +265,11 @@ Point free_stream(double alpha_deg) {
 }
 
 Point leaving_direction(std::span<const Point> nodes) {
+    constexpr double nearly_opposite = 1e-2;
     const std::size_t last = nodes.size() - 1;
-    return unit(unit(nodes[0] - nodes[1]) + unit(nodes[last] - nodes[last - 1]));
+    const Point above = unit(nodes[0] - nodes[1]), below = unit(nodes[last] - nodes[last - 1]), sum = above + below;
+    // Both sides of a flat end without corners arrive from opposite directions: straight across it is the way out.
+    return squared_length(sum) > nearly_opposite ? unit(sum) : unit(perpendicular(above - below));
 }
 
 PanelSolution solve_panels(std::span<const Contour> contours, double alpha_deg, const FlowWalls& walls) {

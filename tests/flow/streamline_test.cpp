@@ -102,6 +102,16 @@ TEST(Streamline, LeavesTheTrailingEdgeAlongTheBisector) {
     EXPECT_NEAR(std::atan2(last.y, last.x) * 180 / M_PI, 10, 0.7);
 }
 
+/// Both sides arrive from opposite directions at a flat end without corners, up to rounding.
+TEST(Streamline, LeavesAFlatEndStraightAcross) {
+    for (const double tilt : {0.0, 1e-17, -1e-17, 1e-9, -1e-9, 1e-3, -1e-3}) {
+        const std::vector<Point> end{{1, 0}, {1 - tilt, 0.1}, {0, 0.1}, {0, -0.1}, {1 - tilt, -0.1}, {1, 0}};
+        const Point way = flow::leaving_direction(end);
+        EXPECT_NEAR(way.x, 1, 1e-12) << tilt;
+        EXPECT_NEAR(way.y, 0, 1e-12) << tilt;
+    }
+}
+
 TEST(Streamline, EndsAtAStagnationPoint) {
     const Flow flow = solve_flow(shapes::geometry({shapes::circle(1, 300)}));
     const std::vector<Point> line = streamline(flow, {-3, 0}, 10);
