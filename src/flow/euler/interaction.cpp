@@ -13,9 +13,16 @@ namespace {
 /// Slower flow at the edge counts as this one, over the speed of sound of the free stream.
 constexpr double least_speed = 0.02;
 
+/// Colder gas at the edge counts as this cold, over the temperature of the free stream.
+constexpr double least_temperature = 0.05;
+
 double temperature(const OuterGas& gas, double speed) {
-    constexpr double least = 0.05;
-    return std::max((heat_ratio - 1) * (gas.total_enthalpy - 0.5 * speed * speed), least);
+    return std::max((heat_ratio - 1) * (gas.total_enthalpy - 0.5 * speed * speed), least_temperature);
+}
+
+/// Returns the speed of the coldest gas.
+double largest_speed(const OuterGas& gas) {
+    return std::sqrt(2 * std::max(gas.total_enthalpy - least_temperature / (heat_ratio - 1), 0.0));
 }
 
 /// Sutherland's law for air of 288.15 K.
@@ -49,13 +56,15 @@ struct State {
     double speed;
 };
 
-/// Returns what lies behind a step of these rates. No step more than doubles or halves anything.
-State advanced(const State& state, const State& rates, double step) {
+/// Returns what lies behind a step of these rates. No step more than doubles or halves anything, and many of them, as round
+/// bluff bodies, where layers and flow do not become steady together, leave numbers finite.
+State advanced(const State& state, const State& rates, double step, double fastest) {
+    constexpr double thickest = 1;  // momentum thickness, in chords
     const double momentum = state.layer.momentum, speed = state.speed;
-    return {limited({std::clamp(momentum + step * rates.layer.momentum, 0.7 * momentum, 1.5 * momentum),
-                     state.layer.shape + step * rates.layer.shape,
+    const double grown = std::clamp(momentum + step * rates.layer.momentum, 0.7 * momentum, 1.5 * momentum);
+    return {limited({std::min(grown, thickest), state.layer.shape + step * rates.layer.shape,
                      state.layer.entrainment + step * rates.layer.entrainment}),
-            std::max(std::clamp(speed + step * rates.speed, 0.8 * speed, 1.25 * speed), least_speed)};
+            std::clamp(std::clamp(speed + step * rates.speed, 0.8 * speed, 1.25 * speed), least_speed, fastest)};
 }
 
 /// The part of the way between two stations.
@@ -75,10 +84,10 @@ public:
         const double length = b_.s - a_.s;
         const auto steps =
             static_cast<int>(std::clamp(length / (step_in_momentum * state.layer.momentum), 1.0, most_steps)) + 1;
-        const double step = length / steps;
+        const double step = length / steps, fastest = largest_speed(gas_);
         for (int k = 0; k < steps; ++k) {
-            const State half = advanced(state, rates(state, static_cast<double>(k) / steps), 0.5 * step);
-            state = advanced(state, rates(half, (k + 0.5) / steps), step);
+            const State half = advanced(state, rates(state, static_cast<double>(k) / steps), 0.5 * step, fastest);
+            state = advanced(state, rates(half, (k + 0.5) / steps), step, fastest);
         }
         return state;
     }
