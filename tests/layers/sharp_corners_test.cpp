@@ -193,6 +193,47 @@ TEST(SharpCorners, OfRandomOutlines) {
     EXPECT_GT(clefts, 20u);
 }
 
+/// A cleft of ice whose sides turn away from it next to the corner. Without a ray at the corner, those beside it stand on
+/// convex vertices, lean away from each other, and do not see the edges of the cleft: triangles were folded.
+TEST(SharpCorners, KeepTheirRayWhereSidesBulge) {
+    const Outline cleft = shapes::polygon({{45.6623, -44.2649},
+                                           {45.8952, -43.8137},
+                                           {46.1572, -43.4789},
+                                           {46.4629, -43.1732},
+                                           {46.8122, -42.9985},
+                                           {46.9432, -42.8093},
+                                           {46.8413, -43.0713},
+                                           {46.5939, -43.4352},
+                                           {46.361, -43.9301},
+                                           {46.0844, -44.425},
+                                           {48, -46},
+                                           {48, -41},
+                                           {44, -41},
+                                           {44, -46}});
+    const LayerOptions high = test::layers_of(0.03, 1.2, 5);
+    const Geometry coarse =
+        jagged_geometry(shapes::refined(cleft, 3));  // rays fit on the third vertices, the convex ones
+    EXPECT_EQ(corners_without_rays(grow_rays(coarse, high, test::growth_of(high))), 0u);
+    std::mt19937 random(5);
+    const auto real = [&](double low, double high) {
+        return std::uniform_real_distribution<double>(low, high)(random);
+    };
+    for (int round = 0; round < 20; ++round) {
+        SCOPED_TRACE(round);
+        Outline outline;
+        for (std::size_t i = 0; i < cleft.size(); ++i) {
+            const Point a = cleft[i], b = cleft[(i + 1) % cleft.size()];
+            const double parts = std::ceil(distance(a, b) / real(0.05, 0.15));
+            for (double k = 0; k < parts; ++k) outline.push_back(a + k / parts * (b - a));
+        }
+        LayerOptions options = test::layers_of(real(0.01, 0.05), 1.2, 20);
+        if (round % 2 == 0) options.layers.reset();
+        const Layer layer = test::checked_layer(jagged_geometry(outline), options);
+        for (const LayerTopology topology : test::topologies)
+            test::expect_cover(layer, layer.edges, fill_layer(layer, topology));
+    }
+}
+
 TEST(SharpCorners, TheFirstVertexKeepsItsRay) {
     const Outline outline = notched_plate(30);
     const auto bottom = std::find(outline.begin(), outline.end(), Point{2, 0.2});

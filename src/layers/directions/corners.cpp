@@ -52,6 +52,39 @@ private:
     std::span<const RayVertex> vertices_;
 };
 
+/// Returns the unit normal of the edge from a to b into the fluid.
+Point normal_of(Point a, Point b) { return -perpendicular(unit(b - a)); }
+
+/// Returns whether a point is well above these edges, by half of this height.
+bool is_above_edges(const Outline& outline, Point p, std::size_t first, std::size_t count, double height) {
+    constexpr double least_share = 0.5;  // rays lean farther than this tells: with 0.1 a triangle was folded
+    for (std::size_t i = first; i < first + count; ++i)
+        if (dot(normal_of(outline.at(i), outline.at(i + 1)), p - outline.at(i)) < least_share * height) return false;
+    return true;
+}
+
+/// Returns whether the tops of the first layer beside a corner are well above the edges on their sides, which they are not
+/// where a side bulges, or where a ray stands on a convex vertex and leans away, between the edge before it and the way to
+/// the other ray:
+///
+///        a'          |
+///         `.         |     a': top of the first layer; the edge from a to the corner c hides it
+///      _____a\       |
+///             \_ c __|b
+///
+bool sees_corner(const Outline& outline, std::size_t before, std::size_t corner, std::size_t after, double height) {
+    const auto is_seen = [&](std::size_t vertex, std::size_t first, Point normal_before, Point normal_after) {
+        const Point sum = normal_before + normal_after;
+        return sum != Point{} &&
+               is_above_edges(outline, outline.at(vertex) + height * unit(sum), first, corner - before, height);
+    };
+    const auto normal = [&](std::size_t edge) { return normal_of(outline.at(edge), outline.at(edge + 1)); };
+    const Point across = normal_of(outline.at(before), outline.at(after));
+    const Point above = normal(before + outline.size() - 1), below = normal(after);
+    return is_seen(before, before, above, normal(before)) && is_seen(before, before, above, across) &&
+           is_seen(after, corner, normal(after - 1), below) && is_seen(after, corner, across, below);
+}
+
 /// Returns how many vertices away from vertex i, on both sides, rays are to stand, where it is a sharp corner; else 0.
 std::size_t reach_of_corner(const Outline& outline, std::size_t i, double first_height) {
     const std::size_t n = outline.size();
@@ -59,7 +92,8 @@ std::size_t reach_of_corner(const Outline& outline, std::size_t i, double first_
     for (std::size_t k = 1; k <= std::min({most_vertices, i, n - i}); ++k) {
         for (const std::size_t beside : {i + n - k, i + k})
             if (!outline.is_wall(beside + n - 1) || !outline.is_wall(beside) || !outline.is_wall(beside + 1)) return 0;
-        if (distance(outline.at(i + n - k), outline.at(i + k)) >= 2 * first_height) return k;
+        if (distance(outline.at(i + n - k), outline.at(i + k)) < 2 * first_height) continue;
+        return sees_corner(outline, i + n - k, i + n, i + n + k, first_height) ? k : 0;
     }
     return 0;
 }
