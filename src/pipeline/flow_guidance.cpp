@@ -40,6 +40,17 @@ void add_heights(const std::vector<FlowPoint>& side, std::size_t element, double
     if (reversed) std::reverse(heights.begin() + first, heights.end());
 }
 
+/// Adds spacings at both corners of a base. The cells of the fan there are as wide as the first layer is high times the
+/// angle between rays.
+void add_base_corners(const ElementFlow& flow, std::size_t element, const layers::LayerGrowth& growth,
+                      std::vector<geometry::WallSpacing>& spacings) {
+    const Point above = flow.upper.back().at, below = flow.lower.back().at;
+    if (above == below) return;
+    const double heights = base_corner_heights / std::max(flow.upper.back().speed, 1.0);
+    const double spacing = heights * growth.first_height_on(element);
+    for (const Point corner : {above, below}) spacings.push_back({element, corner, corner, spacing});
+}
+
 /// Adds spacings where the pressure changes along a side, but for the peaks at its corners.
 void add_pressure_changes(const std::vector<FlowPoint>& side, std::size_t element, double chord, double fineness,
                           std::vector<geometry::WallSpacing>& spacings) {
@@ -89,21 +100,11 @@ std::vector<layers::WallHeight> heights_of_flow(const Flow& flow) {
     return heights;
 }
 
-std::vector<geometry::WallSpacing> spacings_at_bases(const Flow& flow, const layers::LayerGrowth& growth) {
-    std::vector<geometry::WallSpacing> spacings;
-    if (!growth.wakes.empty()) return spacings;
-    for (std::size_t e = 0; e < flow.elements.size(); ++e) {
-        const Point above = flow.elements[e].upper.back().at, below = flow.elements[e].lower.back().at;
-        if (above == below) continue;
-        const double heights = base_corner_heights / std::max(flow.elements[e].upper.back().speed, 1.0);
-        const double spacing = heights * growth.first_height_on(e);
-        for (const Point corner : {above, below}) spacings.push_back({e, corner, corner, spacing});
-    }
-    return spacings;
-}
-
 std::vector<geometry::WallSpacing> spacings_of_flow(const Flow& flow, const layers::LayerGrowth& growth) {
     std::vector<geometry::WallSpacing> spacings;
+    // Layers that go on along the wake need no fans at the base.
+    if (growth.wakes.empty())
+        for (std::size_t e = 0; e < flow.elements.size(); ++e) add_base_corners(flow.elements[e], e, growth, spacings);
     for (std::size_t e = 0; e < flow.elements.size(); ++e)
         for (const auto* side : {&flow.elements[e].upper, &flow.elements[e].lower})
             add_pressure_changes(*side, e, flow.chord, growth.fineness, spacings);
@@ -141,9 +142,7 @@ FlowGuidance guide_by_flow(const Geometry& geometry, const FlowWalls& walls, con
         if (options.wake_layers) growth.wakes = wake_lines(flow, guidance.wakes, growth.least_heights);
     }
     if (flow.estimated) return guidance;
-    guidance.spacings = spacings_at_bases(flow, growth);
-    const std::vector<geometry::WallSpacing> of_flow = spacings_of_flow(flow, growth);
-    guidance.spacings.insert(guidance.spacings.end(), of_flow.begin(), of_flow.end());
+    guidance.spacings = spacings_of_flow(flow, growth);
     // Shocks are found round the bodies alone.
     if (!walls.pitch && is_beyond_critical(flow, flow_conditions))
         add_shocks(geometry, flow_conditions, growth.fineness, guidance);

@@ -26,12 +26,9 @@ inline constexpr double room_above = 1.35;
 /// than further upstream.
 std::vector<layers::WallHeight> heights_of_flow(const Flow& flow);
 
-/// Returns spacings at both corners of each base. The cells of the fan there are as wide as the first layer is high times the angle
-/// between rays. Layers that go on along the wake need none.
-std::vector<geometry::WallSpacing> spacings_at_bases(const Flow& flow, const layers::LayerGrowth& growth);
-
 /// Returns spacings of the walls with which the speed of the flow changes little from one vertex to the next: at the
-/// stagnation point, and on both sides of a suction peak. They are divided by LayerGrowth::fineness.
+/// stagnation point, and on both sides of a suction peak. Spacings at the corners of bases follow from the first heights.
+/// All others are divided by LayerGrowth::fineness.
 std::vector<geometry::WallSpacing> spacings_of_flow(const Flow& flow, const layers::LayerGrowth& growth);
 
 /// Returns the smallest of these spacings on each resampled element.

@@ -115,8 +115,11 @@ MadeMesh run(const Geometry& whole, CaseOptions options, MeshDriver& driver, Sta
         clock.end(&StageSeconds::flow);
     }
 
-    if (options.sizing.background && !options.sizing.background->walls.empty())
-        guide_by_solution(options.sizing.background->walls, given, options.layer, conditions, guidance, growth);
+    if (options.sizing.background && !options.sizing.background->walls.empty()) {
+        const std::vector<geometry::WallSpacing> spacings =
+            guide_by_solution(options.sizing.background->walls, given, options.layer, conditions, growth);
+        guidance.spacings.insert(guidance.spacings.end(), spacings.begin(), spacings.end());
+    }
 
     clock.begin("surface");
     PreparedWalls walls = prepare_walls(given, options, conditions, growth, guidance.spacings, budget);

@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "core/segments.hpp"
+#include "pipeline/flow_guidance.hpp"
 
 namespace lamina::pipeline {
 
@@ -51,10 +52,10 @@ void set_heights(std::size_t element, const SizedWall& wall, const LayerOptions&
 
 }  // namespace
 
-void guide_by_solution(const std::vector<SizedWall>& walls, const Geometry& geometry, const LayerOptions& options,
-                       const ReferenceConditions& conditions, FlowGuidance& guidance, layers::LayerGrowth& growth) {
-    const bool has_flow = guidance.flow && !guidance.flow->estimated;
-    guidance.spacings.clear();
+std::vector<geometry::WallSpacing> guide_by_solution(const std::vector<SizedWall>& walls, const Geometry& geometry,
+                                                     const LayerOptions& options, const ReferenceConditions& conditions,
+                                                     layers::LayerGrowth& growth) {
+    std::vector<geometry::WallSpacing> spacings;
     if (options.enabled) {
         growth.first_heights.resize(geometry.elements.size(), growth.first_height);
         growth.least_heights.clear();
@@ -63,15 +64,12 @@ void guide_by_solution(const std::vector<SizedWall>& walls, const Geometry& geom
         const std::size_t e = nearest_element(geometry, wall.points.front());
         for (std::size_t i = 0; i < wall.points.size(); ++i) {
             const std::size_t next = (i + 1) % wall.points.size();
-            guidance.spacings.push_back(
-                {e, wall.points[i], wall.points[next], 0.5 * (wall.spacings[i] + wall.spacings[next])});
+            spacings.push_back({e, wall.points[i], wall.points[next], 0.5 * (wall.spacings[i] + wall.spacings[next])});
         }
         if (options.enabled) set_heights(e, wall, options, growth);
     }
     growth.first_heights = layers::layer_growth(options, conditions, std::move(growth.first_heights)).first_heights;
-    if (!has_flow) return;
-    const std::vector<geometry::WallSpacing> at_bases = spacings_at_bases(*guidance.flow, growth);
-    guidance.spacings.insert(guidance.spacings.end(), at_bases.begin(), at_bases.end());
+    return spacings;
 }
 
 }  // namespace lamina::pipeline

@@ -5,15 +5,16 @@
 
 #include <lamina/pipeline.hpp>
 
+#include "geometry/wall_spacing.hpp"
 #include "layers/growth.hpp"
-#include "pipeline/flow_guidance.hpp"
 
 namespace lamina::pipeline {
 
-/// Gives the growth of the layer the first heights and least heights that a background mesh has for the walls, and `guidance` the
-/// spacings that it asks for, in place of those of the flow before the mesh. Each of its walls belongs to the element that is
+/// Gives the growth of the layer the first heights and least heights that a background mesh has for the walls, in place of those
+/// of the flow before the mesh, and returns the spacings that it asks for. Each of its walls belongs to the element that is
 /// nearest to its first point. First heights stay where options give them as lengths.
-void guide_by_solution(const std::vector<SizedWall>& walls, const Geometry& geometry, const LayerOptions& options,
-                       const ReferenceConditions& conditions, FlowGuidance& guidance, layers::LayerGrowth& growth);
+std::vector<geometry::WallSpacing> guide_by_solution(const std::vector<SizedWall>& walls, const Geometry& geometry,
+                                                     const LayerOptions& options, const ReferenceConditions& conditions,
+                                                     layers::LayerGrowth& growth);
 
 }  // namespace lamina::pipeline
