@@ -72,8 +72,8 @@ struct SizedMesh {
     /// as that of solution_sizes(), decides on all sizes beyond the layers, without wakes of the flow before the mesh.
     /// Walls, layers and their borders change only where it asks for shorter edges.
     std::optional<double> gradation{};
-    /// Walls that have spacings, first heights where these are given by y+, and least heights of layers of their own, in place
-    /// of those of the flow before the mesh.
+    /// What walls get: spacings beside those of the flow before the mesh, and in place of its own first heights, where these are
+    /// given by y+, and least heights of layers.
     std::vector<SizedWall> walls{};
 };
 
