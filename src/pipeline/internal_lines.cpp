@@ -13,7 +13,6 @@
 #include <fmt/format.h>
 
 #include <lamina/error.hpp>
-#include <lamina/files.hpp>
 #include <lamina/predicates.hpp>
 #include <lamina/triangulation.hpp>
 
@@ -23,8 +22,8 @@
 #include "core/lexicographic_order.hpp"
 #include "core/segments.hpp"
 #include "core/text.hpp"
-#include "geometry/coordinate_rows.hpp"
 #include "geometry/inside.hpp"
+#include "geometry/point_list.hpp"
 #include "geometry/symmetry.hpp"
 
 namespace lamina::pipeline {
@@ -33,25 +32,6 @@ namespace {
 
 constexpr const char* option_name = "line";
 constexpr const char* two_sided_word = "two-sided";
-
-/// Returns the points of a file with two numbers in each line. Empty lines and comments do not count.
-std::vector<Point> read_points(const std::string& file) {
-    const std::string text = read_file(file, max_text_bytes);
-    geometry::RowReader rows(text, file);
-    std::vector<Point> points;
-    while (const auto row = rows.next()) {
-        if (row->kind == geometry::RowKind::blank || row->kind == geometry::RowKind::comment) continue;
-        if (row->kind != geometry::RowKind::numbers || row->number_count != 2)
-            throw InputError({input_name(file), row->line, {}}, "expected the two coordinates of a point of a line");
-        points.push_back({row->values[0], row->values[1]});
-    }
-    return points;
-}
-
-/// Returns whether a text is a list of numbers.
-bool is_numbers(const std::string& text) {
-    return text.find(',') != std::string::npos && text.find_first_not_of("0123456789+-.,eE ") == std::string::npos;
-}
 
 [[noreturn]] void refuse(const InternalLine& line, const std::string& reason) {
     throw OptionError(option_name, fmt::format("{}: {}", line.name, reason));
@@ -64,7 +44,6 @@ InternalLine parse_line(const std::string& text) {
     core::require_text(parts.size() >= 2, text, "a line is NAME[:two-sided][:H]:FILE or ...:X0,Y0,X1,Y1[,...]");
     InternalLine line;
     line.name = parts.front();
-    const std::string& place = parts.back();
     for (std::size_t i = 1; i + 1 < parts.size(); ++i) {
         if (parts[i] == two_sided_word) {
             line.two_sided = true;
@@ -72,15 +51,9 @@ InternalLine parse_line(const std::string& text) {
             line.size = core::parse_number(parts[i]);
         }
     }
-    if (!is_numbers(place)) {
-        line.file = place;
-        line.points = read_points(place);
-        return line;
-    }
-    const std::vector<double> numbers = core::parse_numbers(place, ',');
-    core::require_text(numbers.size() >= 4 && numbers.size() % 2 == 0, text,
-                       "a line needs two coordinates for each of its points, and two points");
-    for (std::size_t i = 0; i < numbers.size(); i += 2) line.points.push_back({numbers[i], numbers[i + 1]});
+    geometry::PointList list = geometry::parse_point_list(parts.back());
+    line.points = std::move(list.points);
+    line.file = std::move(list.file);
     return line;
 }
 
@@ -88,11 +61,7 @@ std::string line_text(const InternalLine& line) {
     std::string text = line.name;
     if (line.two_sided) text += std::string(":") + two_sided_word;
     if (line.size) text += ":" + core::to_text(*line.size);
-    text += ":";
-    if (!line.file.empty()) return text + line.file;
-    for (std::size_t i = 0; i < line.points.size(); ++i)
-        text += core::concat(i > 0 ? "," : "", line.points[i].x, ",", line.points[i].y);
-    return text;
+    return text + ":" + geometry::point_list_text(line.points, line.file);
 }
 
 void validate_lines(const CaseOptions& options) {
