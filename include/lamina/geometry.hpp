@@ -41,13 +41,30 @@ struct WallPart {
     Point begin;       ///< the vertex that it begins at, counter-clockwise; it ends where the next one begins
 };
 
+/// A body without thickness: a sail, a splitter plate, a Gurney strip. An end that is nearer to the wall of another body
+/// than a thousandth of that body's length, or inside it, stands on that wall.
+struct Sheet {
+    std::string name;             ///< of its marker
+    std::vector<Point> points{};  ///< from one end to the other, two at least
+    std::string file{};           ///< that the points come from; empty where they are given by themselves
+};
+
+/// Both sides of a sheet in an outline, which runs along it to its tip and back. They are a tiny gap apart, which is
+/// closed when the mesh is made (docs/decisions/0083).
+struct SheetSides {
+    std::string name;  ///< of its marker
+    Point begin;       ///< the vertex where the outline begins to run along it: its foot on a wall, or its first tip
+    Point tip;         ///< the one where it turns back
+    Point end;         ///< where it is back: `begin` itself, or a vertex beside it on the wall
+};
+
 /// One closed body.
 struct Element {
     std::string name;        ///< name of its marker in the mesh: a legal one (marker_names.hpp)
     std::string given_name;  ///< the name that the options or its file give it, which may be no legal one
     std::string file;        ///< as the user gave it; "naca:0012" for generated sections
     std::string title;       ///< the title line of the file, if it has one
-    /// "selig", "lednicer", "table", "xy", "csv", "naca", "points", "dxf", "svg", "iges" or "step".
+    /// "selig", "lednicer", "table", "xy", "csv", "naca", "points", "dxf", "svg", "iges", "step" or "sheet".
     std::string format;
     std::string unit;             ///< the unit of length that the file names, such as "mm"; empty where it names none
     std::size_t points_read = 0;  ///< number of points in the file; 0 for generated sections
@@ -70,7 +87,8 @@ struct Element {
     /// Whether the part of the outline below Geometry::symmetry is the image of that above, which the line cut off. The
     /// outline then begins on the line, at the tail.
     bool is_mirrored = false;
-    std::vector<WallPart> parts{};  ///< of bodies that were joined; empty for others
+    std::vector<WallPart> parts{};     ///< of bodies that were joined, or on which sheets stand; empty for others
+    std::vector<SheetSides> sheets{};  ///< the sheet that it is, or those that stand on it
 };
 
 /// Bodies that are closed, simple and pairwise disjoint.
@@ -124,6 +142,9 @@ struct GeometryOptions {
     std::optional<TailSharpening> sharpen_te{};     ///< how blunt trailing edges become sharp; empty: they stay blunt
     std::optional<TrailingEdgeGap> open_te{};       ///< the gap of all trailing edges; empty: as they are
     std::vector<Transformation> transformations{};  ///< applied in this order, and after these: transformed()
+    /// Bodies without thickness beside those of the inputs. Transformations may name them, and apply before they are put
+    /// on walls.
+    std::vector<Sheet> sheets{};
 };
 
 LAMINA_EXPORT void validate(const GeometryOptions& options);  ///< throws OptionError: an option out of range
@@ -138,7 +159,7 @@ LAMINA_EXPORT std::vector<Element> read_inputs(std::span<const std::string> inpu
 /// direction, or the two surfaces one behind the other. `source` stands for the file in messages, and points for lines.
 LAMINA_EXPORT Element element_of_points(std::span<const Point> points, const std::string& source,
                                         const GeometryOptions& options = {});
-/// Makes the geometry of elements: names, transforms and checks them. Throws UsageError for a wrong number of names,
+/// Makes the geometry of elements and sheets: names, transforms and checks them. Throws UsageError for a wrong number of names,
 /// for repeated names and for those that no element has, InputError also for transformations that cannot be made.
 LAMINA_EXPORT Geometry make_geometry(std::vector<Element> elements, const GeometryOptions& options = {});
 

@@ -30,7 +30,6 @@ bool is_named_as_mesh(const std::string& input) {
 
 MeshCase case_of_inputs(const std::vector<std::string>& inputs, const std::optional<std::string>& preset,
                         bool has_reynolds) {
-    if (inputs.empty()) throw UsageError("no INPUT: give an airfoil file, naca:DIGITS or a case file");
     for (const std::string& input : inputs)
         if (input.starts_with('-') && !is_standard_stream(input))
             throw UsageError("unknown option " + input + hint_text(hint_for_other_word("mesh", input), "--"));
@@ -50,6 +49,11 @@ MeshCase case_of_inputs(const std::vector<std::string>& inputs, const std::optio
     MeshCase mesh_case = case_of_preset(preset.value_or(automatic_preset), has_reynolds);
     mesh_case.inputs = inputs;
     return mesh_case;
+}
+
+void require_any_body(const MeshCase& mesh_case) {
+    if (mesh_case.inputs.empty() && mesh_case.options.geometry.sheets.empty())
+        throw UsageError("no INPUT: give an airfoil file, naca:DIGITS or a case file");
 }
 
 }  // namespace lamina::app

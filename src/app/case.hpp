@@ -57,4 +57,7 @@ inline constexpr FileBesideMesh files_beside_mesh[] = {
 MeshCase case_of_inputs(const std::vector<std::string>& inputs, const std::optional<std::string>& preset = {},
                         bool has_reynolds = false);
 
+/// Throws UsageError for a case without inputs and without sheets.
+void require_any_body(const MeshCase& mesh_case);
+
 }  // namespace lamina::app

@@ -163,7 +163,8 @@ MeshCase read_case_file(const std::filesystem::path& file, const std::optional<s
         }
         assign(*option, mesh_case, value, origin);
     }
-    if (mesh_case.inputs.empty()) throw UsageError(file.string() + ": no input");
+    if (mesh_case.inputs.empty() && mesh_case.options.geometry.sheets.empty())
+        throw UsageError(file.string() + ": no input");
     mesh_case.case_file = file.string();
     return mesh_case;
 }

@@ -54,7 +54,6 @@ void adapt(const AdaptArguments& arguments) {
     SolverCaseOptions options;
     set_by_name(option_table<SolverCaseOptions>(), "turbulence", arguments.turbulence, options);
     const MeshCase mesh_case = case_of_command_line(arguments.mesh);
-    if (mesh_case.inputs.empty()) throw UsageError("no INPUT: give airfoil files, naca:DIGITS or a case file");
     if (is_given(mesh_case, "gradation")) settings.sizes.gradation = mesh_case.options.sizing.gradation;
     settings.identity = fmt::format("\n{}\n{}", arguments.solver, arguments.turbulence);
     MeshCase without_outputs = mesh_case;

@@ -33,7 +33,7 @@ namespace lamina::app {
 namespace {
 
 struct FlowArguments {
-    std::vector<std::string> inputs;
+    std::vector<std::string> inputs, sheets;
     std::map<std::string, std::string> conditions;  ///< values by the names of option_table<FlowConditions>()
     std::map<std::string, std::string> walls;       ///< likewise, of option_table<FarFieldOptions>()
     std::string table, picture, mach_picture;
@@ -250,6 +250,8 @@ void flow(const FlowArguments& arguments) {
     MeshCase mesh_case = case_of_inputs(arguments.inputs);
     for (const auto& [name, value] : arguments.walls)
         set_by_name(option_table<FarFieldOptions>(), name, value, mesh_case.options.far_field);
+    set_by_name(option_table<GeometryOptions>(), "sheet", arguments.sheets, mesh_case.options.geometry);
+    require_any_body(mesh_case);
     require_consistent(mesh_case);
     FlowConditions conditions = mesh_case.options.conditions;
     for (const auto& [name, value] : arguments.conditions)
@@ -293,6 +295,7 @@ void add_flow_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand("flow", "compute the flow round airfoils, without a mesh");
     auto arguments = std::make_shared<FlowArguments>();
     command->add_option("INPUT", arguments->inputs, input_help);
+    add_repeated_table_option(*command, option_table<GeometryOptions>(), "sheet", arguments->sheets);
     for (const char* name : {"alpha", "mach", "reynolds", "velocity", "viscosity", "chord"})
         add_table_option(*command, option_table<FlowConditions>(), name, arguments->conditions[name]);
     for (const char* name : {"ground", "tunnel", "periodic"})

@@ -24,15 +24,18 @@ void add_info_command(CLI::App& app) {
         add_table_flag(*command, option_table<GeometryOptions>(), name, (*given)[name]);
     for (const char* name : {"sharpen-te", "open-te"})
         add_table_option(*command, option_table<GeometryOptions>(), name, (*given)[name]);
-    auto transform = std::make_shared<std::vector<std::string>>();
-    add_repeated_table_option(*command, option_table<GeometryOptions>(), "transform", *transform);
+    auto repeated = std::make_shared<std::map<std::string, std::vector<std::string>>>();
+    for (const char* name : {"transform", "sheet"})
+        add_repeated_table_option(*command, option_table<GeometryOptions>(), name, (*repeated)[name]);
     for (const char* name : {"surface", "smooth", "spacing-max"})
         add_table_option(*command, option_table<SurfaceOptions>(), name, (*surface)[name]);
-    command->callback([inputs, given, transform, surface] {
+    command->callback([inputs, given, repeated, surface] {
         MeshCase mesh_case = case_of_inputs(*inputs);
         for (const auto& [name, text] : *given)
             set_by_name(option_table<GeometryOptions>(), name, text, mesh_case.options.geometry);
-        set_by_name(option_table<GeometryOptions>(), "transform", *transform, mesh_case.options.geometry);
+        for (const auto& [name, texts] : *repeated)
+            set_by_name(option_table<GeometryOptions>(), name, texts, mesh_case.options.geometry);
+        require_any_body(mesh_case);
         for (const auto& [name, text] : *surface) {
             set_by_name(option_table<SurfaceOptions>(), name, text, mesh_case.options.surface);
             if (!text.empty()) mesh_case.given.push_back(name);

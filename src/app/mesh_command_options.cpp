@@ -91,6 +91,7 @@ MeshCase case_of_command_line(const GivenOptions& options, const std::vector<std
     for (const auto& [option, given] : options)
         if (!given->get_positional() && given->count() > 0) set(*option, given->results());
     for (const auto& [option, text] : further) set(*option, {text});
+    require_any_body(mesh_case);
     return mesh_case;
 }
 

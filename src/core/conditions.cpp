@@ -49,7 +49,10 @@ void validate(const FlowConditions& conditions) {
 }
 
 ReferenceConditions reference_conditions(const FlowConditions& conditions, const Box& bodies) {
+    constexpr double least_slope = 1e-3;  // of width over height: upright plates have no chord
     validate(conditions);
+    if (!conditions.chord && !(bodies.width() > least_slope * bodies.height()))
+        throw OptionError("chord", "has to be given, as --chord C: the configuration has no extent in x");
     ReferenceConditions reference{.chord = conditions.chord.value_or(bodies.width()),
                                   .alpha_deg = conditions.alpha_deg,
                                   .reynolds = conditions.reynolds,

@@ -3,6 +3,7 @@
 
 #include "core/option_rows.hpp"
 #include "core/text.hpp"
+#include "geometry/sheets.hpp"
 
 namespace lamina {
 
@@ -55,6 +56,13 @@ OptionTable<GeometryOptions> option_rows() {
                 "(counter-clockwise, about the origin or X,Y), shift:DX,DY, mirror[:Y] (in a horizontal line), "
                 "flap:DEG:X,Y (a plain flap with its hinge at X,Y, downwards); may be given several times, in order",
                 parse_transformation, transformation_text, member_at(&GeometryOptions::transformations));
+    table.specs("sheet", "NAME:PLACE",
+                "a body without thickness with the marker NAME, as a sail, a splitter plate or a Gurney strip: a wall "
+                "with layers "
+                "on both sides along the points of PLACE, X0,Y0,X1,Y1[,...] or a file of them, in units of the input; "
+                "an end at a "
+                "wall stands on that; may be given several times, without INPUT too",
+                geometry::parse_sheet, geometry::sheet_text, member_at(&GeometryOptions::sheets));
     table
         .count("naca-points", "N",
                "surface points of naca: inputs that do not give their number; 0: as many as a wall needs",
@@ -70,6 +78,7 @@ void validate(const GeometryOptions& options) {
         require_in_range(gaps, options.open_te->gap, open_te_key);
         require_in_range(distances, options.open_te->distance, open_te_key);
     }
+    geometry::validate_sheets(options.sheets);
     if (options.open_te && options.sharpen_te) throw OptionError(open_te_key, "excludes sharpening (sharpen_te)");
     if (options.close && options.mirror_half)
         throw OptionError("mirror_half", "excludes closing the half by a straight edge (close)");

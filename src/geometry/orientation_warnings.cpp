@@ -8,6 +8,7 @@
 
 #include "core/bounding_box.hpp"
 #include "geometry/element_names.hpp"
+#include "geometry/sheets.hpp"
 #include "geometry/source_point.hpp"
 
 namespace lamina::geometry {
@@ -80,6 +81,7 @@ void add_orientation_warnings(Geometry& geometry) {
     const Box all = bounding_box(geometry);
     const bool upright = all.height() > min_upright * all.width();
     for (Element& e : geometry.elements) {
+        if (is_sheet(e)) continue;  // which may stand as it likes
         if (e.file.starts_with(naca_prefix)) continue;
         const Box box = core::bounding_box(e.points);
         if (upright && box.height() > min_upright * box.width()) {

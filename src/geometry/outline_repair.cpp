@@ -24,6 +24,8 @@ namespace {
 
 using SourcePoints = std::vector<SourcePoint>;
 
+constexpr const char* advice_for_sheets = "a body without thickness is given as --sheet NAME:FILE";
+
 /// Returns the distance below which neighbours are the same point, written with different rounding.
 double merge_tolerance(const SourcePoints& points) { return 1e-12 * extent(points); }
 
@@ -31,12 +33,13 @@ double merge_tolerance(const SourcePoints& points) { return 1e-12 * extent(point
 void check_extent(const SourcePoints& points, const std::string& file) {
     const InputPlace place{file, points.empty() ? 0 : points[0].line, {}};
     if (points.size() < 3)
-        throw InputError(place, fmt::format("only {} distinct point{}; an outline needs at least three", points.size(),
-                                            points.size() == 1 ? "" : "s"));
+        throw InputError(place, fmt::format("only {} distinct point{}; an outline needs at least three; {}",
+                                            points.size(), points.size() == 1 ? "" : "s", advice_for_sheets));
     const bool flat = std::all_of(points.begin(), points.end(), [&](const SourcePoint& p) {
         return orient2d(points[0].at, points[1].at, p.at) == 0;
     });
-    if (flat) throw InputError(place, fmt::format("all {} points lie on one line", points.size()));
+    if (flat)
+        throw InputError(place, fmt::format("all {} points lie on one line; {}", points.size(), advice_for_sheets));
 }
 
 /// Returns the points without those that repeat the one before them or, at the end, the first one. Throws InputError as
@@ -276,8 +279,8 @@ bool is_side_of_plate(const SourcePoints& points) {
         {file, last.line, last.at},
         fmt::format("the outline is open: its end is {:.3g} away from its start {} on line {}, too far to "
                     "be closed by a base edge; where a straight edge belongs there, repeat the first point "
-                    "at the end or give --close{}",
-                    distance(last.at, first.at), coordinates(first.at), first.line, remedy));
+                    "at the end or give --close{}; {}",
+                    distance(last.at, first.at), coordinates(first.at), first.line, remedy, advice_for_sheets));
 }
 
 /// Divides the edge from the last point back to the first into edges about as long as the shorter of its neighbours.

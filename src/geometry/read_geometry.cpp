@@ -23,6 +23,7 @@
 #include "geometry/outline_repair.hpp"
 #include "geometry/parse_airfoil.hpp"
 #include "geometry/point_runs.hpp"
+#include "geometry/sheets.hpp"
 #include "geometry/tail_shape.hpp"
 #include "geometry/unite.hpp"
 
@@ -152,13 +153,18 @@ Element element_of_points(std::span<const Point> points, const std::string& sour
 
 Geometry make_geometry(std::vector<Element> elements, const GeometryOptions& options) {
     validate(options);
-    if (elements.empty()) throw UsageError("no input given");
+    if (elements.empty() && options.sheets.empty()) throw UsageError("no input given");
     Geometry geometry{std::move(elements)};
     name_elements(geometry.elements, options);
     for (Element& element : geometry.elements) shape_tail(element, options);
+    for (const Sheet& sheet : options.sheets) geometry.elements.push_back(open_sheet(sheet));
     geometry.unturned_box = unturned_box(geometry, options.transformations);
     geometry = transformed(std::move(geometry), options.transformations);
-    if (options.unite) geometry = unite(std::move(geometry));
+    const auto first_sheet = geometry.elements.end() - static_cast<std::ptrdiff_t>(options.sheets.size());
+    const std::vector<Element> sheets(first_sheet, geometry.elements.end());
+    geometry.elements.erase(first_sheet, geometry.elements.end());
+    if (options.unite && !geometry.elements.empty()) geometry = unite(std::move(geometry));
+    geometry = with_sheets(std::move(geometry), sheets);
     check_simple(geometry);
     add_orientation_warnings(geometry);
     return geometry;

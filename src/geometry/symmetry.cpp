@@ -136,6 +136,10 @@ void add_above(const Element& element, double y, std::vector<Element>& result) {
         result.push_back(element);
         return;
     }
+    if (!element.sheets.empty())
+        refuse(
+            element, element.sheets.front().tip,
+            "is a sheet, or has one, and the line of symmetry cuts it: give the whole configuration without the line");
     const std::vector<Part> parts = parts_above(points, y);
     if (parts.empty())
         refuse(element, element.points.front(),

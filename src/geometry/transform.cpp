@@ -14,6 +14,7 @@
 #include "core/angles.hpp"
 #include "geometry/element_names.hpp"
 #include "geometry/plain_flap.hpp"
+#include "geometry/sheets.hpp"
 #include "geometry/source_point.hpp"
 #include "geometry/unite.hpp"
 
@@ -21,11 +22,13 @@ namespace lamina::geometry {
 
 namespace {
 
-/// Moves the points of an element, where its parts begin, and the places of its warnings.
+/// Moves the points of an element, where its parts and sheets begin and end, and the places of its warnings.
 template <class Map>
 void map_points(Element& e, Map map) {
     for (Point& p : e.points) p = map(p);
     for (WallPart& part : e.parts) part.begin = map(part.begin);
+    for (SheetSides& sheet : e.sheets)
+        for (Point* p : {&sheet.begin, &sheet.tip, &sheet.end}) *p = map(*p);
     for (Warning& warning : e.warnings)
         if (warning.at) warning.at = map(*warning.at);
 }
@@ -45,7 +48,9 @@ void reverse_parts(Element& e) {
 
 /// Puts an element that was mirrored back into counter-clockwise order; the first point stays first.
 void reverse_order(Element& e) {
+    if (is_open_sheet(e)) return;
     reverse_parts(e);
+    for (SheetSides& sheet : e.sheets) std::swap(sheet.begin, sheet.end);
     for (std::size_t& corner : e.given_corners) corner = (e.points.size() - corner) % e.points.size();
     std::sort(e.given_corners.begin(), e.given_corners.end());
     std::reverse(e.points.begin() + 1, e.points.end());
@@ -88,6 +93,11 @@ struct Change {
         return fmt::format("mirrored in the line y = {}", m.y);
     }
     std::string operator()(const FlapDeflection& f) const {
+        if (is_open_sheet(element) || !element.sheets.empty())
+            throw InputError(
+                {element.file, 0, f.hinge},
+                fmt::format("element {} is a sheet, or one stands on it: give the points of the deflected one",
+                            element.name));
         if (!element.parts.empty())
             throw InputError({element.file, 0, f.hinge},
                              fmt::format("element {} is a union of bodies: deflect their flaps before they are joined",

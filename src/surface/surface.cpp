@@ -13,6 +13,7 @@
 
 #include "core/text.hpp"
 #include "geometry/element_names.hpp"
+#include "geometry/sheets.hpp"
 #include "geometry/symmetry.hpp"
 #include "geometry/trailing_edge.hpp"
 #include "surface/clearance.hpp"
@@ -106,6 +107,50 @@ struct Plan {
     SampledCurves sampled{};          ///< the curves that the points were put on, for the next time
 };
 
+// ---- sheets --------------------------------------------------------------------------------------------------------
+
+/// Gives the given edges on both sides of sheets the same treatment: the one that changes more.
+void treat_sides_alike(const Element& given, std::vector<EdgeTreatment>& edges) {
+    const std::size_t n = edges.size();
+    for (const geometry::SheetRange& range : geometry::sheet_ranges(given))
+        for (std::size_t i = range.first; i < range.tip; ++i) {
+            EdgeTreatment &edge = edges[i % n], &across = edges[range.across(i, n)];
+            for (const EdgeTreatment treatment : {EdgeTreatment::divide, EdgeTreatment::spline})
+                if (edge == treatment || across == treatment) {
+                    edge = across = treatment;
+                    break;
+                }
+        }
+}
+
+/// Returns the given edges on the other side of the sheet that some are on.
+GivenEdges edges_across(const GivenEdges& edges, const Element& given) {
+    const std::size_t n = given.points.size();
+    for (const geometry::SheetRange& range : geometry::sheet_ranges(given)) {
+        const std::size_t first = edges.first < range.first ? edges.first + n : edges.first;
+        if (first < range.last) return {range.across(edges.first + edges.count - 1, n), edges.count};
+    }
+    return edges;
+}
+
+/// Makes both sides of the sheets of an element alike. `origins` are those of its edges.
+void fold_sheets(Element& element, const Element& given, std::vector<GivenEdges>& origins) {
+    const std::size_t n = element.points.size();
+    const std::vector<geometry::FoldedVertex> vertices = geometry::fold_again(element);
+    std::vector<GivenEdges> folded;
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        const geometry::FoldedVertex &from = vertices[i], &to = vertices[(i + 1) % vertices.size()];
+        if ((from.from + 1) % n == to.from) {
+            folded.push_back(origins[from.from]);
+        } else {
+            // The edge is across from the one that ends, or begins, at the vertex that its own end is across from.
+            const std::size_t edge = to.is_across ? to.from : (from.from + n - 1) % n;
+            folded.push_back(edges_across(origins[edge], given));
+        }
+    }
+    origins = std::move(folded);
+}
+
 /// Makes the new points of an element.
 void apply(Plan& plan, Element& element, const Element& given, std::size_t index, const ResamplingRequest& request) {
     ResampledElement resampled =
@@ -114,6 +159,7 @@ void apply(Plan& plan, Element& element, const Element& given, std::size_t index
     element.resampled = true;
     element.smooth = !is_jagged(given);
     plan.origins = std::move(resampled.origins);
+    if (!element.sheets.empty()) fold_sheets(element, given, plan.origins);
     if (plan.straightened > 0)
         element.surface_notes.push_back(
             fmt::format("{} stay straight, since the smooth curve would cross itself or another one",
@@ -145,6 +191,7 @@ void even_out_joints(Plan& plan, Element& element, const Element& given, std::si
             replace_from(i, 1);
             replace_from(i, n - 1);
         }
+        treat_sides_alike(given, plan.decision.edges);
         if (plan.decision.edges == before) return;
         apply(plan, element, given, index, request);
     }
@@ -180,7 +227,10 @@ void straighten_crossing(Geometry& geometry, std::vector<Plan>& plans, const Geo
         }
         if (std::find(is_changed.begin(), is_changed.end(), true) == is_changed.end()) return;
         for (std::size_t e = 0; e < plans.size(); ++e)
-            if (is_changed[e]) apply(plans[e], geometry.elements[e], given.elements[e], e, request);
+            if (is_changed[e]) {
+                treat_sides_alike(given.elements[e], plans[e].decision.edges);
+                apply(plans[e], geometry.elements[e], given.elements[e], e, request);
+            }
         margin = std::max<std::size_t>(1, 2 * margin);
     }
 }
@@ -219,7 +269,8 @@ Geometry prepare_within(Geometry given, const SurfaceOptions& options, const Spa
     if (options.smooth) {
         Geometry smoothed = given;
         const double tolerance = in_units(*options.smooth, chord ? *chord : bounding_box(given).width());
-        for (Element& e : smoothed.elements) smooth(e, tolerance);
+        for (Element& e : smoothed.elements)
+            if (e.sheets.empty()) smooth(e, tolerance);
         restore_crossing(smoothed, given);
         given = std::move(smoothed);
     } else {
@@ -237,6 +288,7 @@ Geometry prepare_within(Geometry given, const SurfaceOptions& options, const Spa
     for (std::size_t i = 0; i < given.elements.size(); ++i) {
         Element& element = result.elements[i];
         Plan& plan = plans.emplace_back(Plan{decide(element, i, request), {}});
+        treat_sides_alike(element, plan.decision.edges);
         if (plan.decision.keeps_all()) {
             element.surface_notes.push_back(
                 fmt::format("{} points kept: {}", element.points.size(), plan.decision.reason));
