@@ -98,6 +98,29 @@ double EdgeDivision::max_ratio() const {
     return ratio;
 }
 
+// Edges that lie back to back, on both sides of a sheet. They get the same points.
+
+namespace {
+
+/// Returns, for each edge, the number of the one that lies back to back with it but for a gap, or its own number.
+std::vector<std::size_t> edges_back_to_back(std::span<const PolygonEdge> edges) {
+    constexpr double widest_gap = 1e-6;  // of the edge
+    std::vector<std::size_t> across(edges.size());
+    std::iota(across.begin(), across.end(), std::size_t{0});
+    const core::BoxTree tree = segment_tree(edges);
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        const PolygonEdge& edge = edges[i];
+        const double gap = widest_gap * edge.length;
+        const Point middle = midpoint(edge.a, edge.b);
+        tree.overlaps({middle - Point{gap, gap}, middle + Point{gap, gap}}, [&](std::size_t j) {
+            if (distance(edge.a, edges[j].b) < gap && distance(edge.b, edges[j].a) < gap) across[i] = j;
+        });
+    }
+    return across;
+}
+
+}  // namespace
+
 // The balance between the parts on both sides of each corner. Divided edges first give way to their neighbours; where
 // that is not enough, the edge of the longer part gets one more.
 
@@ -122,14 +145,18 @@ double factor_towards(double own, double neighbour, bool neighbour_divided) {
 
 class Balance {
 public:
-    Balance(std::span<const PolygonEdge> edges, double max_ratio, std::vector<EdgeDivision>& divisions)
+    /// `across`: edges_back_to_back(), which have as many parts as each other.
+    Balance(std::span<const PolygonEdge> edges, std::span<const std::size_t> across, double max_ratio,
+            std::vector<EdgeDivision>& divisions)
         : edges_(edges),
+          across_(across),
           limit_(max_ratio * (1 + 1e-9)),
           divisions_(divisions),
           unscaled_(edges.size()),
           scaled_(edges.size()) {}
 
     void run() {
+        for (std::size_t i = 0; i < edges_.size(); ++i) divisions_[i].take_parts(divisions_[across_[i]]);
         for (std::size_t i = 0; i < edges_.size(); ++i) measure(i);
         for (std::size_t i = 0; i < edges_.size(); ++i) scale_towards_neighbours(i);
         std::vector<std::size_t> active(edges_.size());  // edges whose corners are to be judged
@@ -137,10 +164,13 @@ public:
         while (!active.empty()) {
             const std::vector<std::size_t> longer = edges_with_longer_parts(active);
             active.clear();
-            for (std::size_t i : longer) {
-                divisions_[i].add_part();
-                measure(i);
-                active.insert(active.end(), {edges_[i].previous, i, edges_[i].next});
+            for (const std::size_t longer_edge : longer) {
+                divisions_[longer_edge].add_part();
+                divisions_[across_[longer_edge]].take_parts(divisions_[longer_edge]);
+                for (const std::size_t i : {longer_edge, across_[longer_edge]}) {
+                    measure(i);
+                    active.insert(active.end(), {edges_[i].previous, i, edges_[i].next});
+                }
             }
             sort_without_duplicates(active);
             for (std::size_t i : active) scale_towards_neighbours(i);
@@ -149,6 +179,7 @@ public:
 
 private:
     std::span<const PolygonEdge> edges_;
+    std::span<const std::size_t> across_;
     double limit_;  ///< max_ratio with a slack for rounding
     std::vector<EdgeDivision>& divisions_;
     std::vector<EdgeDivision::EndParts> unscaled_, scaled_;  ///< per edge, with its targets as given and as scaled
@@ -197,7 +228,7 @@ private:
 }  // namespace
 
 void balance_divisions(std::span<const PolygonEdge> edges, double max_ratio, std::vector<EdgeDivision>& divisions) {
-    Balance(edges, max_ratio, divisions).run();
+    Balance(edges, edges_back_to_back(edges), max_ratio, divisions).run();
 }
 
 // Exact tests of the parts of divided edges against each other and against the walls.
@@ -313,6 +344,15 @@ std::vector<Point> division_points(const PolygonEdge& edge, const EdgeDivision& 
     return points;
 }
 
+/// Returns the points of an edge that lie across from those of another one.
+std::vector<Point> points_across(const PolygonEdge& other, const std::vector<Point>& of_other,
+                                 const PolygonEdge& edge) {
+    std::vector<Point> points;
+    for (auto p = of_other.rbegin(); p != of_other.rend(); ++p)
+        points.push_back(edge.a + distance(*p, other.b) / other.length * (edge.b - edge.a));
+    return points;
+}
+
 }  // namespace
 
 BorderDivision divide_borders(std::span<const std::vector<Point>> fronts, std::span<const std::vector<Point>> walls,
@@ -321,7 +361,10 @@ BorderDivision divide_borders(std::span<const std::vector<Point>> fronts, std::s
     const std::vector<PolygonEdge> edges = polygon_edges(fronts, least_requests);
     const std::vector<EdgeDivision> divisions = balanced_divisions(edges, options, whole_up_to);
     std::vector<std::vector<Point>> points(edges.size());
-    for (std::size_t i = 0; i < edges.size(); ++i) points[i] = division_points(edges[i], divisions[i]);
+    const std::vector<std::size_t> across = edges_back_to_back(edges);
+    for (std::size_t i = 0; i < edges.size(); ++i)
+        points[i] = across[i] < i ? points_across(edges[across[i]], points[across[i]], edges[i])
+                                  : division_points(edges[i], divisions[i]);
     undo_crossings(edges, polygon_edges(walls), points);
 
     BorderDivision result;

@@ -1,6 +1,7 @@
 // The division of fronts into edges of gradually varying length, which makes them outer borders.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -31,6 +32,8 @@ public:
     /// Returns whether there may be another part: up to six times as many parts as the target needs.
     bool extensible() const;
     void add_part() { ++parts_; }
+    /// Takes at least as many parts as another edge.
+    void take_parts(const EdgeDivision& other) { parts_ = std::max(parts_, other.parts_); }
 
     /// Multiplies the targets by a factor that runs linearly from `first` at the edge's start to `last` at its end.
     /// Replaces the factors of earlier calls.
@@ -86,6 +89,7 @@ struct BorderDivision {
 /// least_requests holds one length per front and edge, or is empty; no edge requests less than that. whole_up_to holds
 /// one number per front and edge, or is empty: that many times its target length an edge may be long and stay whole, but
 /// where it is longer than a source asks for.
+/// Edges that lie back to back, as both sides of a sheet without layers, get the same points.
 /// Precondition: the fronts are simple and disjoint; they meet walls only in vertices and whole edges of both. The
 /// result is so, too: an edge whose division would cross something by rounding stays whole.
 BorderDivision divide_borders(std::span<const std::vector<Point>> fronts, std::span<const std::vector<Point>> walls,
