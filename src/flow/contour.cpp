@@ -8,6 +8,7 @@
 #include "core/angles.hpp"
 #include "core/bounding_box.hpp"
 #include "core/rounding.hpp"
+#include "geometry/sheets.hpp"
 #include "geometry/trailing_edge.hpp"
 #include "surface/clearance.hpp"
 #include "surface/corners.hpp"
@@ -288,7 +289,8 @@ std::vector<Point> place_nodes(const OutlineCurve& curve, std::span<const double
 
 }  // namespace
 
-std::vector<Contour> make_contours(const Geometry& geometry) {
+std::vector<Contour> make_contours(const Geometry& given) {
+    const Geometry geometry = geometry::with_thickness(given);
     const surface::ClearanceSearch walls(geometry);
     const double most = std::min(max_panels, max_all_panels / static_cast<double>(geometry.elements.size()));
     std::vector<Contour> contours;
@@ -300,6 +302,7 @@ std::vector<Contour> make_contours(const Geometry& geometry) {
         select_corners(curve);
         const std::vector<double> spacing = panel_spacing(curve, e, extent, walls, geometry.elements.size() == 1);
         contours.push_back({place_nodes(curve, spacing, most), outline.blunt, outline.rounded, extent});
+        if (geometry::is_sheet(given.elements[e])) contours.back().sharp_nose = element.points.front();
     }
     return contours;
 }

@@ -1,6 +1,7 @@
 // The panels of the bodies: few points on the outlines, dense where the flow changes fast.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <lamina/geometry.hpp>
@@ -14,11 +15,12 @@ struct Contour {
     bool blunt = false;    ///< whether a base joins the last node to the first one; they are equal otherwise
     bool rounded = false;  ///< whether the outline passes its trailing edge without a sharp corner
     double extent = 0;     ///< longer side of the box round the element
+    std::optional<Point> sharp_nose{};  ///< the tip of a sheet opposite of its trailing edge
 };
 
 /// Returns the contours of all elements. The nodes lie on splines through the given points. Their spacing follows from
 /// the curvature, from the distance to corners and to other elements; it does not depend on that of the given points,
-/// and zigzags shorter than it do not reduce it.
-std::vector<Contour> make_contours(const Geometry& geometry);
+/// and zigzags shorter than it do not reduce it. Sheets are thin sections, and those on walls are left out.
+std::vector<Contour> make_contours(const Geometry& given);
 
 }  // namespace lamina::flow

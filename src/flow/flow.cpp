@@ -99,16 +99,18 @@ void fall_back(Flow& flow, std::span<const Contour> contours, const Geometry& ge
 }
 
 /// Returns the speeds along a side as its boundary layer meets them.
-std::vector<EdgePoint> edge_speeds(const std::vector<FlowPoint>& side) {
-    const std::vector<double> speeds = without_corner_peaks(side, [](const FlowPoint& p) { return p.speed; });
+std::vector<EdgePoint> edge_speeds(const std::vector<FlowPoint>& side, const std::optional<Point>& sharp_nose) {
+    const std::vector<double> speeds = without_corner_peaks(
+        side, [](const FlowPoint& p) { return p.speed; }, sharp_nose);
     std::vector<EdgePoint> edge(side.size());
     for (std::size_t i = 0; i < side.size(); ++i) edge[i] = {side[i].s, speeds[i]};
     return edge;
 }
 
-void add_boundary_layer(std::vector<FlowPoint>& side, double viscosity, bool turbulent) {
+void add_boundary_layer(std::vector<FlowPoint>& side, const std::optional<Point>& sharp_nose, double viscosity,
+                        bool turbulent) {
     const std::vector<LayerPoint> layer =
-        boundary_layer(edge_speeds(side), {.viscosity = viscosity, .turbulent = turbulent});
+        boundary_layer(edge_speeds(side, sharp_nose), {.viscosity = viscosity, .turbulent = turbulent});
     for (std::size_t i = 0; i < side.size(); ++i) {
         side[i].momentum = layer[i].momentum;
         side[i].displacement = layer[i].displacement;
@@ -161,7 +163,7 @@ Flow solve_flow(const Geometry& geometry, const FlowConditions& conditions, cons
         element.name = geometry.elements[e].name;
         if (!reference.reynolds) continue;
         for (auto* side : {&element.upper, &element.lower})
-            add_boundary_layer(*side, flow.chord / *reference.reynolds, !is_laminar(reference));
+            add_boundary_layer(*side, contours[e].sharp_nose, flow.chord / *reference.reynolds, !is_laminar(reference));
     }
     if (std::optional<Warning> wide; reference.reynolds && (wide = find_wide_wake(flow)))
         flow.warnings.push_back(std::move(*wide));

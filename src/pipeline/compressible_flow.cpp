@@ -13,6 +13,7 @@
 #include "flow/euler/euler.hpp"
 #include "flow/euler/wall_flow.hpp"
 #include "flow/potential.hpp"
+#include "geometry/sheets.hpp"
 #include "pipeline/shock_sizes.hpp"
 
 namespace lamina::pipeline {
@@ -136,7 +137,7 @@ CompressibleFlow solve_compressible_flow(const Geometry& geometry, const FlowCon
     validate(conditions);
     if (!conditions.mach) throw OptionError("mach", "a compressible flow needs it");
     const ReferenceConditions reference = reference_conditions(conditions, reference_box(geometry));
-    Geometry whole = geometry;
+    Geometry whole = geometry::with_thickness(geometry);
     for (Element& element : whole.elements) element.parts.clear();  // one marker each
     const MeshResult made = generate_mesh(whole, options_of_mesh(conditions));
     const EulerMesh mesh = euler_mesh(made);

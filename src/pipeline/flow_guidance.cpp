@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <variant>
 
 #include <lamina/error.hpp>
 
 #include "flow/corner_peaks.hpp"
 #include "flow/euler/euler.hpp"
+#include "geometry/sheets.hpp"
 #include "pipeline/shock_sizes.hpp"
 
 namespace lamina::pipeline {
@@ -82,6 +84,55 @@ void add_shocks(const Geometry& geometry, const FlowConditions& conditions, doub
     guidance.knows_shocks = sizes.knows_shocks;
 }
 
+/// Returns the height at the point of a chain of the same element that is nearest to p.
+double nearest_height(Point p, std::span<const layers::WallHeight> chain) {
+    const auto nearest =
+        std::min_element(chain.begin(), chain.end(), [&](const layers::WallHeight& a, const layers::WallHeight& b) {
+            return squared_length(a.at - p) < squared_length(b.at - p);
+        });
+    return nearest->height;
+}
+
+/// Fits the heights of an element to its sheets. Both sides of one by itself are as near to each vertex as each other, and
+/// get the same heights. On those that stand on walls layers are no higher than what is left of the sheet up to its tip.
+void fit_to_sheets(const Element& element, std::vector<layers::WallHeight>& chain) {
+    if (chain.empty()) return;
+    if (geometry::is_sheet(element)) {
+        const std::vector<layers::WallHeight> given = chain;
+        // The sides meet at the nose, where heights of both are those of the stagnation point.
+        const std::size_t n = given.size();
+        std::size_t nose = 0;
+        for (std::size_t i = 0; i < n; ++i)
+            if (given[i].height < given[nose].height) nose = i;
+        const std::span<const layers::WallHeight> upper(given.data(), nose + 1), lower(given.data() + nose, n - nose);
+        for (std::size_t i = 0; i < n; ++i)
+            chain[i].height = std::max(given[i].height, nearest_height(given[i].at, i <= nose ? lower : upper));
+        return;
+    }
+    for (const SheetSides& sheet : element.sheets) {
+        const auto nearest = std::min_element(chain.begin(), chain.end() - 1, [&](const auto& a, const auto& b) {
+            return squared_length(a.at - sheet.begin) < squared_length(b.at - sheet.begin);
+        });
+        const double length = distance(sheet.begin, sheet.tip), height = std::min(nearest->height, length);
+        const std::size_t e = nearest->element;
+        chain.insert(nearest + 1, {{e, sheet.begin, height}, {e, sheet.tip, 0}, {e, sheet.end, height}});
+    }
+}
+
+/// Returns the heights of the flow, with those on sheets.
+std::vector<layers::WallHeight> heights_with_sheets(const Flow& flow, const Geometry& geometry) {
+    const std::vector<layers::WallHeight> all = heights_of_flow(flow);
+    std::vector<layers::WallHeight> result;
+    for (std::size_t e = 0; e < geometry.elements.size(); ++e) {
+        std::vector<layers::WallHeight> chain;
+        std::copy_if(all.begin(), all.end(), std::back_inserter(chain),
+                     [&](const layers::WallHeight& height) { return height.element == e; });
+        fit_to_sheets(geometry.elements[e], chain);
+        result.insert(result.end(), chain.begin(), chain.end());
+    }
+    return result;
+}
+
 }  // namespace
 
 std::vector<double> first_heights_of_flow(const Flow& flow, double y_plus, double reynolds) {
@@ -138,7 +189,7 @@ FlowGuidance guide_by_flow(const Geometry& geometry, const FlowWalls& walls, con
                 layers::layer_growth(options, conditions,
                                      first_heights_of_flow(flow, y_plus->y_plus, *conditions.reynolds))
                     .first_heights;
-        growth.least_heights = heights_of_flow(flow);
+        growth.least_heights = heights_with_sheets(flow, geometry);
         if (options.wake_layers) growth.wakes = wake_lines(flow, guidance.wakes, growth.least_heights);
     }
     if (flow.estimated) return guidance;

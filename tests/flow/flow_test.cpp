@@ -11,6 +11,7 @@
 #include <lamina/surface.hpp>
 #include <lamina/threads.hpp>
 
+#include "core/angles.hpp"
 #include "flow/contour.hpp"
 #include "flow/mapped_section.hpp"
 #include "flow/panel_system.hpp"
@@ -75,6 +76,27 @@ TEST(Flow, SymmetricSectionsHaveNoLiftAndEqualSides) {
             EXPECT_NEAR(upper[upper.size() - i].at.y, -lower[lower.size() - i].at.y, 1e-9);
         }
     }
+}
+
+TEST(Flow, SheetsHaveTheLiftOfThinPlates) {
+    for (const double alpha_deg : {2.0, 8.0}) {
+        const Sheet plate{"plate", {{0, 0}, {1, 0}}};
+        const Flow flow = solve_flow(make_geometry({}, {.sheets = {plate}}), {.alpha_deg = alpha_deg});
+        const double wanted = 2 * core::pi * std::sin(core::radians(alpha_deg));
+        EXPECT_NEAR(flow.lift, wanted, 0.02 * wanted);
+        const Sheet turned{"plate", {{1, 0}, {0, 0}}};
+        EXPECT_NEAR(solve_flow(make_geometry({}, {.sheets = {turned}}), {.alpha_deg = alpha_deg}).lift, flow.lift,
+                    1e-9);
+    }
+}
+
+TEST(Flow, SheetsOnWallsAreLeftOut) {
+    const FlowConditions conditions{.alpha_deg = 4};
+    const Sheet strip{"strip", {{0.4, 0}, {0.4, 0.2}}};
+    const auto lift = [&](std::vector<Sheet> sheets) {
+        return solve_flow(make_geometry({naca_airfoil("0012", 200)}, {.sheets = std::move(sheets)}), conditions).lift;
+    };
+    EXPECT_NEAR(lift({strip}), lift({}), 1e-3);
 }
 
 TEST(Flow, MirroredSectionsHaveTheOppositeLift) {
