@@ -50,7 +50,7 @@ struct Sheet {
 };
 
 /// Both sides of a sheet in an outline, which runs along it to its tip and back. They are a tiny gap apart, which is
-/// closed when the mesh is made (docs/decisions/0083).
+/// closed when the mesh is made.
 struct SheetSides {
     std::string name;  ///< of its marker
     Point begin;       ///< the vertex where the outline begins to run along it: its foot on a wall, or its first tip

@@ -6,7 +6,7 @@
 //                                                              begin  ||  end
 //                                                                    tip
 //
-// Source: docs/decisions/0083.
+// Source: docs/decisions/0084.
 #pragma once
 
 #include <cstddef>

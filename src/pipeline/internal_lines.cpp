@@ -24,6 +24,7 @@
 #include "core/text.hpp"
 #include "geometry/inside.hpp"
 #include "geometry/point_list.hpp"
+#include "geometry/sheets.hpp"
 #include "geometry/symmetry.hpp"
 
 namespace lamina::pipeline {
@@ -245,6 +246,20 @@ void require_connected_domain(const LineGraph& graph, std::span<const InternalLi
     }
 }
 
+/// Throws OptionError for lines that meet sheets, whose sides are a gap apart there.
+void require_clear_of_sheets(const LineGraph& graph, std::span<const InternalLine> lines, const Geometry& geometry) {
+    std::set<Point, core::LexicographicOrder> on_sheets;
+    for (const Element& element : geometry.elements)
+        for (const geometry::SheetRange& range : geometry::sheet_ranges(element))
+            for (std::size_t i = range.first; i <= range.last; ++i)
+                on_sheets.insert(element.points[i % element.points.size()]);
+    for (std::size_t i = 0; i < graph.pieces.size(); ++i)
+        for (const VertexId v : {graph.pieces[i].a, graph.pieces[i].b})
+            if (const Point p = graph.points[v.index()]; on_sheets.contains(p))
+                refuse(lines[graph.line[i]],
+                       fmt::format("it meets a sheet near ({:.4g}, {:.4g}): leave a gap", p.x, p.y));
+}
+
 }  // namespace
 
 LineGraph arrange_lines(std::span<const InternalLine> lines, const decoupling::FarField& far_field,
@@ -298,6 +313,7 @@ LineGraph arrange_lines(std::span<const InternalLine> lines, const decoupling::F
         graph.line.push_back(arrangement.line[cells.parents[i] - arrangement.walls.size()]);
     }
     require_connected_domain(graph, lines, geometry);
+    require_clear_of_sheets(graph, lines, geometry);
     return graph;
 }
 

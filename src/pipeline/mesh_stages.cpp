@@ -12,6 +12,7 @@
 #include "decoupling/far_field.hpp"
 #include "layers/heights/heights.hpp"
 #include "pipeline/assemble.hpp"
+#include "pipeline/close_sheets.hpp"
 #include "pipeline/mesh_limits.hpp"
 #include "pipeline/row_border.hpp"
 #include "pipeline/warnings.hpp"
@@ -156,16 +157,17 @@ void complete_markers(const FittedLayer& fitted, const layers::Layer& layer, con
     split_far_field(points, markers, fitted.conditions.alpha_deg);
 }
 
-/// Doubles the vertices of two-sided lines, and checks the mesh as a whole: pieces know no lines. The summary of
-/// walls stays that of the bodies, since lines with two sides have no layers.
-void complete_lines(const CaseOptions& options, MadeMesh& made) {
+/// Doubles the vertices of two-sided lines, closes sheets, and checks the mesh as a whole: pieces know no lines, and sheets
+/// with a gap. Beside lines the summary of walls stays that of the pieces, since those with two sides have no layers.
+void complete_walls_without_thickness(const CaseOptions& options, MadeMesh& made) {
     MeshResult& result = made.result;
     split_two_sided(options.lines, result.mesh, made.constraints);
     result.mesh.constraints = made.constraints;
+    close_sheets(result);
     WallSummary walls = std::move(result.check.walls);
     result.check = check_mesh(result.mesh, {.min_angle_deg = options.refine.min_angle_deg,
                                             .first_heights = first_heights_of_markers(result, result.mesh.markers)});
-    result.check.walls = std::move(walls);
+    if (!options.lines.empty()) result.check.walls = std::move(walls);
     require_valid(result.check);
 }
 
@@ -233,8 +235,8 @@ MadeMesh make_mesh(const FittedLayer& fitted, const CaseOptions& options, MeshDr
     require_made_within(budget, pieces.counts);
     result.mesh = std::move(pieces.mesh);
     result.mesh.markers = std::move(markers);
-    if (!options.lines.empty()) complete_lines(options, made);
     summarize_cells(layer, pieces.cells, result);
+    if (!options.lines.empty() || has_sheets(result.geometry)) complete_walls_without_thickness(options, made);
     summarize_refinement(pieces.summary, result);
     driver.lead([&] {
         result.warnings = find_warnings(

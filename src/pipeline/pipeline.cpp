@@ -204,6 +204,8 @@ MeshResult generate_mesh(const std::vector<std::string>& inputs, const CaseOptio
 StreamedMesh stream_mesh(const std::vector<std::string>& inputs, const CaseOptions& options, const OpenSink& open_sink,
                          const Progress& progress) {
     if (!options.lines.empty()) throw OptionError("line", "lines need the mesh as a whole: leave --stream out");
+    if (!options.geometry.sheets.empty())
+        throw OptionError("sheet", "sheets need the mesh as a whole: leave --stream out");
     StreamingDriver driver(open_sink);
     MadeMesh made = run_on_inputs(inputs, options, driver, progress);
     return {std::move(made.result), made.counts, std::move(made.hash), std::move(made.sink)};
@@ -212,6 +214,8 @@ StreamedMesh stream_mesh(const std::vector<std::string>& inputs, const CaseOptio
 SharedMesh share_mesh(const std::vector<std::string>& inputs, const CaseOptions& options, Ranks& ranks,
                       const std::optional<std::filesystem::path>& beside, const Progress& progress) {
     if (!options.lines.empty()) throw OptionError("line", "lines are made by one process: leave mpirun out");
+    if (!options.geometry.sheets.empty())
+        throw OptionError("sheet", "sheets are made by one process: leave mpirun out");
     SharingDriver driver(core::connected(ranks), beside);
     MadeMesh made = run_on_inputs(inputs, options, driver, progress);
     return {std::move(made.result), made.counts, std::move(made.hash), std::move(made.constraints),

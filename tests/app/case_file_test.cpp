@@ -185,5 +185,23 @@ TEST(CaseFile, EveryOptionOfTheHelpIsDumped) {
     EXPECT_GT(options, 50u);
 }
 
+TEST(CaseFile, SheetsNeedNoInput) {
+    const TemporaryFolder folder;
+    folder.write("sail.dat", "# a curve\n0 0\n0.5 0.1\n1 0\n");
+    const ProgramRun given =
+        run_lamina(folder, {"mesh", "--sheet", "sail:sail.dat", "--first-height", "1e-4", "--dump-config"});
+    ASSERT_EQ(given.exit_code, 0) << given.err;
+    folder.write("case.toml", given.out);
+    const ProgramRun run = run_lamina(folder, {"mesh", "case.toml", "-o", "sail.su2", "--far-field", "10"});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_NE(folder.read("sail.su2").find("MARKER_TAG= sail"), std::string::npos);
+    EXPECT_EQ(run_lamina(folder, {"info", "--sheet", "sail:sail.dat"}).exit_code, 0);
+    EXPECT_EQ(run_lamina(folder, {"flow", "--sheet", "sail:sail.dat", "--alpha", "3"}).exit_code, 0);
+    // A curve as INPUT is refused, with the option that takes it.
+    EXPECT_NE(run_lamina(folder, {"mesh", "sail.dat", "-o", "a.su2"}).err.find("--sheet"), std::string::npos);
+    EXPECT_NE(run_lamina(folder, {"mesh", "--sheet", "sail:sail.dat", "--stream", "-o", "a.vtu"}).err.find("--stream"),
+              std::string::npos);
+}
+
 }  // namespace
 }  // namespace lamina::test
