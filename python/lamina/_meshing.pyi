@@ -61,6 +61,10 @@ def mesh(
     # about the origin or X,Y), shift:DX,DY, mirror[:Y] (in a horizontal line), flap:DEG:X,Y (a plain flap with
     # its hinge at X,Y, downwards); may be given several times, in order
     transform: str | float | Sequence[str | float] | None = None,
+    # a body without thickness with the marker NAME, as a sail, a splitter plate or a Gurney strip: a wall with
+    # layers on both sides along the points of PLACE, X0,Y0,X1,Y1[,...] or a file of them, in units of the
+    # input; an end at a wall stands on that; may be given several times, without INPUT too
+    sheet: str | float | Sequence[str | float] | None = None,
     # reference chord, in units of the input: what lengths in chords count; else the extent in x of the
     # configuration before --transform turns it; > 0
     chord: float | None = None,

@@ -171,6 +171,15 @@ def test_never_changes(small):
     assert copy.copy(small) == small and copy.deepcopy(small) == small
 
 
+def test_sheets_need_no_section():
+    plate = lamina.mesh([], sheet=["plate:0,0,1,0"], first_height=1e-4, far_field=10)
+    assert lamina.check(plate).valid and set(plate.markers) == {"plate", "farfield"}
+    strip = lamina.mesh("naca:0012", sheet=["gurney:1,0,1,-0.01"], first_height=1e-4, far_field=10)
+    assert lamina.check(strip).valid and set(strip.markers) == {"gurney", "airfoil", "farfield"}
+    with pytest.raises(lamina.InputError, match="crosses or touches airfoil"):
+        lamina.mesh("naca:0012", sheet=["wall:0.5,-1,0.5,1"])
+
+
 def test_meshes_of_arrays():
     points = [[0, 0], [1, 0], [1, 1], [0, 1]]
     mesh = lamina.mesh_of_arrays(points, [[0, 1, 2], [0, 2, 3]], {"all": [[0, 1], [1, 2], [2, 3], [3, 0]]},
