@@ -17,7 +17,8 @@ std::vector<Point> read_point_list(const std::string& file) {
     RowReader rows(text, file);
     std::vector<Point> points;
     while (const auto row = rows.next()) {
-        if (row->kind == RowKind::blank || row->kind == RowKind::comment) continue;
+        const bool is_title = row->kind == RowKind::text && row->damage.empty() && points.empty();
+        if (row->kind == RowKind::blank || row->kind == RowKind::comment || is_title) continue;
         if (row->kind != RowKind::numbers || row->number_count != 2)
             throw InputError({input_name(file), row->line, {}}, "expected the two coordinates of a point of a line");
         points.push_back({row->values[0], row->values[1]});

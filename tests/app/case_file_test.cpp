@@ -187,7 +187,7 @@ TEST(CaseFile, EveryOptionOfTheHelpIsDumped) {
 
 TEST(CaseFile, SheetsNeedNoInput) {
     const TemporaryFolder folder;
-    folder.write("sail.dat", "# a curve\n0 0\n0.5 0.1\n1 0\n");
+    folder.write("sail.dat", "A curve\n# with a title\n0 0\n0.5 0.1\n1 0\n");
     const ProgramRun given =
         run_lamina(folder, {"mesh", "--sheet", "sail:sail.dat", "--first-height", "1e-4", "--dump-config"});
     ASSERT_EQ(given.exit_code, 0) << given.err;
