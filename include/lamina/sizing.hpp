@@ -56,7 +56,7 @@ LAMINA_EXPORT Box bounding_box(const SizeSource& source);
 /// What a solution asks of the wall of a body and of the layer on it, at points along it: a closed chain in the order of the
 /// wall. All lists have one entry per point.
 struct SizedWall {
-    std::vector<Point> points{};
+    std::vector<Point> points{};        ///< on the wall, or near to it
     std::vector<double> spacings{};     ///< largest distance of the wall's vertices, in units of the input
     std::vector<double> units{};        ///< height above the wall at which y+ is 1
     std::vector<double> thicknesses{};  ///< of the boundary layer
