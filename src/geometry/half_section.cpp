@@ -33,16 +33,16 @@ std::size_t longest_edge(const SourcePoints& points) {
 }
 
 /// Points of a closed outline that follow each other.
-struct Stretch {
+struct AxisStretch {
     std::size_t first, count;
 };
 
 /// Returns the longest stretch of points that stand at this ordinate.
-Stretch longest_at(double y, const SourcePoints& points) {
+AxisStretch longest_at(double y, const SourcePoints& points) {
     const std::size_t n = points.size();
     const double near = tolerance(points);
     const auto is_there = [&](std::size_t i) { return std::abs(points[i % n].at.y - y) <= near; };
-    Stretch longest{0, 0};
+    AxisStretch longest{0, 0};
     for (std::size_t i = 0; i < n; ++i) {
         if (!is_there(i) || is_there(i + n - 1)) continue;
         std::size_t count = 1;
@@ -66,7 +66,7 @@ SourcePoints opened_at_axis(SourcePoints points) {
     const std::size_t n = points.size();
     std::size_t begin = longest_edge(points) + 1, count = n;
     for (const double y : {lowest->at.y, highest->at.y}) {
-        const Stretch axis = longest_at(y, points);
+        const AxisStretch axis = longest_at(y, points);
         const std::size_t last = axis.first + axis.count - 1;
         if (axis.count < 3 || axis.count == n) continue;
         if (distance(points[axis.first].at, points[last % n].at) < min_share * extent(points)) continue;

@@ -22,7 +22,7 @@ namespace {
 
 using test::marker_of;
 
-CaseOptions options_with(std::vector<Sheet> sheets) {
+CaseOptions options_with_sheets(std::vector<Sheet> sheets) {
     CaseOptions options;
     options.far_field.size = 10;
     options.layer.first_height = 1e-4;
@@ -49,7 +49,7 @@ void expect_closed(const MeshResult& result, const std::string& name) {
 
 TEST(CloseSheets, PlatesHaveLayersOnBothSides) {
     for (const LayerTopology topology : {LayerTopology::layered, LayerTopology::quads, LayerTopology::delaunay}) {
-        CaseOptions options = options_with({{"plate", {{0, 0}, {1, 0}}}});
+        CaseOptions options = options_with_sheets({{"plate", {{0, 0}, {1, 0}}}});
         options.layer.topology = topology;
         const MeshResult result = generate_mesh(std::vector<std::string>{}, options);
         expect_closed(result, "plate");
@@ -62,7 +62,7 @@ TEST(CloseSheets, PlatesHaveLayersOnBothSides) {
 
 TEST(CloseSheets, StripsAreMarkersOnTheWallsOfBodies) {
     const std::vector<Sheet> strips{{"gurney", {{1, 0}, {1, -0.01}}}, {"fence", {{0.4, 0}, {0.4, 0.1}, {0.45, 0.2}}}};
-    CaseOptions options = options_with(strips);
+    CaseOptions options = options_with_sheets(strips);
     const MeshResult result = generate_mesh({"naca:0012"}, options);
     for (const Sheet& strip : strips) expect_closed(result, strip.name);
     EXPECT_NE(marker_of(result.mesh, "airfoil"), nullptr);
@@ -72,7 +72,7 @@ TEST(CloseSheets, StripsAreMarkersOnTheWallsOfBodies) {
 }
 
 TEST(CloseSheets, TheFlowDecidesOnBothSides) {
-    CaseOptions options = options_with({{"sail", {{0, 0}, {0.3, 0.06}, {0.6, 0.07}, {1, 0}}}});
+    CaseOptions options = options_with_sheets({{"sail", {{0, 0}, {0.3, 0.06}, {0.6, 0.07}, {1, 0}}}});
     options.layer = {};
     options.layer.first_height = YPlus{1};
     options.conditions = {.alpha_deg = 5, .reynolds = 1e6};
@@ -87,7 +87,8 @@ TEST(CloseSheets, TheFlowDecidesOnBothSides) {
 
 TEST(CloseSheets, WallsWithoutLayersAreDividedAlike) {
     // At feet that lean, walls beside corners are divided where nothing else asks for it.
-    CaseOptions options = options_with({{"fence", {{0.7704, 0}, {0.7389, -0.0576}}}, {"plate", {{1.5, 0}, {2, 0.2}}}});
+    CaseOptions options =
+        options_with_sheets({{"fence", {{0.7704, 0}, {0.7389, -0.0576}}}, {"plate", {{1.5, 0}, {2, 0.2}}}});
     options.layer.enabled = false;
     const MeshResult result = generate_mesh({"naca:0012"}, options);
     expect_closed(result, "fence");
@@ -104,7 +105,7 @@ TEST(CloseSheets, RandomOnesAreValid) {
             {"standing", {{x, 0}, {x + lean, side * uniform(0.14, 0.2)}}},
             {"free", {{uniform(1.1, 1.3), -0.2}, {1.4, uniform(-0.2, 0.2)}, {uniform(1.5, 2), 0.1}}}};
         const char* const section = std::array{"naca:0012", "naca:4412", "naca:0012:blunt", "naca:2424"}[trial % 4];
-        const MeshResult result = generate_mesh({section}, options_with(sheets));
+        const MeshResult result = generate_mesh({section}, options_with_sheets(sheets));
         expect_closed(result, "standing");
         expect_closed(result, "free");
     }
@@ -112,7 +113,7 @@ TEST(CloseSheets, RandomOnesAreValid) {
 
 TEST(CloseSheets, AreReadBackFromFormats) {
     const test::TemporaryFolder folder;
-    const Mesh mesh = generate_mesh({"naca:0012"}, options_with({{"fence", {{0.5, 0}, {0.5, 0.2}}}})).mesh;
+    const Mesh mesh = generate_mesh({"naca:0012"}, options_with_sheets({{"fence", {{0.5, 0}, {0.5, 0.2}}}})).mesh;
     for (const char* file : {"a.vtu", "a.msh", "a.su2", "a.cas"}) {
         write_mesh(mesh, folder / file);
         const Mesh read = read_mesh(folder / file);
@@ -123,7 +124,7 @@ TEST(CloseSheets, AreReadBackFromFormats) {
 }
 
 TEST(CloseSheets, RefusalsSayWhy) {
-    CaseOptions options = options_with({{"plate", {{0, 0}, {1, 0}}}});
+    CaseOptions options = options_with_sheets({{"plate", {{0, 0}, {1, 0}}}});
     EXPECT_THROW(stream_mesh({}, options, [] { return std::unique_ptr<MeshSink>(); }), OptionError);
     options.lines = {{.name = "rake", .points = {{0.5, -1}, {0.5, 1}}}};
     try {
@@ -132,7 +133,7 @@ TEST(CloseSheets, RefusalsSayWhy) {
     } catch (const OptionError& error) {
         EXPECT_NE(std::string(error.what()).find("meets a sheet"), std::string::npos) << error.what();
     }
-    options = options_with({{"plate", {{0, 0}, {0, 1}}}});
+    options = options_with_sheets({{"plate", {{0, 0}, {0, 1}}}});
     EXPECT_THROW(generate_mesh(std::vector<std::string>{}, options), OptionError);  // no chord
 }
 

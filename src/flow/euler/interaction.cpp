@@ -14,15 +14,15 @@ namespace {
 constexpr double least_speed = 0.02;
 
 /// Colder gas at the edge counts as this cold, over the temperature of the free stream.
-constexpr double least_temperature = 0.05;
+constexpr double least_edge_temperature = 0.05;
 
 double temperature(const OuterGas& gas, double speed) {
-    return std::max((heat_ratio - 1) * (gas.total_enthalpy - 0.5 * speed * speed), least_temperature);
+    return std::max((heat_ratio - 1) * (gas.total_enthalpy - 0.5 * speed * speed), least_edge_temperature);
 }
 
 /// Returns the speed of the coldest gas.
 double largest_speed(const OuterGas& gas) {
-    return std::sqrt(2 * std::max(gas.total_enthalpy - least_temperature / (heat_ratio - 1), 0.0));
+    return std::sqrt(2 * std::max(gas.total_enthalpy - least_edge_temperature / (heat_ratio - 1), 0.0));
 }
 
 /// Sutherland's law for air of 288.15 K.
