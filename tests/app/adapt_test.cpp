@@ -79,7 +79,7 @@ TEST(AdaptCommand, WallsFollowTheSolutionWhereTheReynoldsNumberIsKnown) {
     const TemporaryFolder folder;
     folder.write("so lve.sh", script(""));
     std::vector<std::string> arguments = adapt({"--reynolds", "1e6"});
-    *std::find(arguments.begin(), arguments.end(), "7000") = "12000";
+    *std::find(arguments.begin(), arguments.end(), "7000") = "20000";
     const ProgramRun run = run_lamina(folder, arguments);
     ASSERT_EQ(run.exit_code, 0) << run.err;
     const SizedMesh sizes = read_sizes(folder / "loop/round_1/sizes.vtu");
