@@ -21,17 +21,21 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <lamina/solution.hpp>
 
 namespace lamina {
 
-/// What is known about the flow along walls.
+/// The part of a solution that says how the flow passes the walls, and the viscosity that turns it into friction.
 struct WallFlowOptions {
     std::string
         velocity;  ///< name of the vectors of velocity, or of momentum, whose components "NAME:x" and "NAME:y" are
                    ///< the last two fields of the solution
     double viscosity = 0;  ///< kinematic, over the speed of the free stream: the chord over the Reynolds number
+
+    /// Returns the names of the two components.
+    std::vector<std::string> components() const { return {velocity + ":x", velocity + ":y"}; }
 };
 
 /// Options of solution_sizes().

@@ -107,8 +107,7 @@ public:
             scales.push_back(shape.scale);
         }
         if (options.walls)
-            walls_.emplace(solution, find_wall_flow(solution, options.walls->velocity, options.walls->viscosity),
-                           scales, options.max_change);
+            walls_.emplace(solution, find_wall_flow(solution, *options.walls), scales, options.max_change);
         if (std::all_of(shape_.begin(), shape_.end(), [](double size) { return size == HUGE_VAL; }))
             throw OptionError("field", "is linear everywhere beyond the layer: no sizes follow from it");
         keep_outer_vertices(mesh, isotropic, vertices);

@@ -190,11 +190,12 @@ void mark_corners(const Mesh& mesh, WallFlow& wall) {
 
 }  // namespace
 
-std::vector<WallFlow> find_wall_flow(const Solution& solution, const std::string& velocity, double viscosity) {
-    // Boundary layers are sought up to this share of the length of all walls.
+std::vector<WallFlow> find_wall_flow(const Solution& solution, const WallFlowOptions& options) {
+    // Boundary layers are sought up to this share of the length of their wall.
     constexpr double reach = 0.1;
     const Mesh& mesh = solution.mesh;
-    const SolutionField &x = field_named(solution, velocity + ":x"), &y = field_named(solution, velocity + ":y");
+    const std::vector<std::string> names = options.components();
+    const SolutionField &x = field_named(solution, names[0]), &y = field_named(solution, names[1]);
     for (const SolutionField* field : {&x, &y}) require_fitting(mesh, *field);
     const CellFlow flow =
         x.at_cells ? flow_from_cells(mesh, x.values, y.values) : flow_from_vertices(mesh, x.values, y.values);
@@ -212,7 +213,8 @@ std::vector<WallFlow> find_wall_flow(const Solution& solution, const std::string
         WallFlow& wall = walls.emplace_back(of_cells.size());
         const double length = vertices.arc_length[first + n - 1];
         core::parallel_for(wall.size(), 16, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) walk.measure(of_cells[i], viscosity, reach * length, wall[i]);
+            for (std::size_t i = begin; i < end; ++i)
+                walk.measure(of_cells[i], options.viscosity, reach * length, wall[i]);
         });
         mark_corners(mesh, wall);
     }

@@ -1,11 +1,11 @@
-// What a solution says about the flow along the walls.
+// The friction, the boundary layer and the cells of the layer along the walls of a solution.
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include <lamina/solution.hpp>
+#include <lamina/solution_sizes.hpp>
 
 namespace lamina::adaptation {
 
@@ -34,9 +34,8 @@ using WallFlow = std::vector<WallFlowEdge>;
 /// constant outside of the layer whatever the pressure does there. Source: P. R. Spalart, J. H. Watmuff, J. Fluid Mech. 249
 /// (1993), section 2.
 ///
-/// `velocity` has its components in the fields "NAME:x" and "NAME:y"; the mean over the far field is the free stream's.
-/// `viscosity` is kinematic, over the speed of the free stream: the chord over the Reynolds number. Throws OptionError where
-/// the fields are missing, and where the mesh has no walls or no far field.
-std::vector<WallFlow> find_wall_flow(const Solution& solution, const std::string& velocity, double viscosity);
+/// The mean velocity over the far field is the free stream's. Throws OptionError where the components are no fields of the
+/// solution, and where the mesh has no walls or no far field.
+std::vector<WallFlow> find_wall_flow(const Solution& solution, const WallFlowOptions& options);
 
 }  // namespace lamina::adaptation

@@ -327,7 +327,7 @@ private:
         if (mesher_->viscosity() && !velocity.empty()) {
             options.walls = WallFlowOptions{velocity, *mesher_->viscosity()};
             options.keep_borders = false;
-            for (const char* component : {":x", ":y"}) needed.push_back(velocity + component);
+            for (const std::string& component : options.walls->components()) needed.push_back(component);
         }
         const SolutionSizes made =
             solution_sizes(solver_.read(folder_of(i - 1), needed), options, [&](const SizedMesh& sizes) {

@@ -114,7 +114,7 @@ void sizes(const SizesArguments& arguments) {
     }
     if (!arguments.velocity.empty()) {
         options.walls = wall_flow_of(arguments.velocity, *mesh_case);
-        for (const char* component : {":x", ":y"}) fields.push_back(arguments.velocity + component);
+        for (const std::string& component : options.walls->components()) fields.push_back(component);
     }
     const SignalGuard guard(outputs);
     const Solution solution = read_solution(arguments.solution, fields, arguments.mesh);

@@ -50,7 +50,7 @@ struct SheetRange {
 };
 LAMINA_EXPORT std::vector<SheetRange> sheet_ranges(const Element& element);
 
-/// Where a vertex of an outline comes from: one of an earlier outline, or the one across from it.
+/// The origin of a vertex of an outline: a vertex of an earlier outline, or the one across from it on the sheet.
 struct FoldedVertex {
     std::size_t from;
     bool is_across = false;

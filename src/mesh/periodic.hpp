@@ -28,7 +28,7 @@ struct PeriodicMismatch {
     Point at{};          ///< a vertex without a twin
 };
 
-/// What find_periodic_pair() finds: nothing where no marker is of kind periodic.
+/// The result of find_periodic_pair(): a pair, or a mismatch, or neither where no marker is of kind periodic.
 struct PeriodicSearch {
     std::optional<PeriodicPair> pair{};          ///< the borders, if they are exact copies of each other
     std::optional<PeriodicMismatch> mismatch{};  ///< why they are not

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <variant>
 
 #include "core/segments.hpp"
@@ -11,13 +12,16 @@ namespace lamina::pipeline {
 
 namespace {
 
-std::size_t nearest_element(const Geometry& geometry, Point p) {
-    std::size_t nearest = 0;
-    double least = HUGE_VAL;
+/// Returns the element whose outline a wall follows: the nearest one to its first point, but no farther away than the next point;
+/// nothing for walls of the domain.
+std::optional<std::size_t> element_of(const SizedWall& wall, const Geometry& geometry) {
+    const Point p = wall.points[0];
+    std::optional<std::size_t> nearest;
+    double least = distance(p, wall.points[1]);
     for (std::size_t e = 0; e < geometry.elements.size(); ++e) {
-        const std::vector<Point>& wall = geometry.elements[e].points;
-        for (std::size_t i = 0; i < wall.size(); ++i) {
-            const double away = core::distance_to_segment(p, wall[i], wall[(i + 1) % wall.size()]);
+        const std::vector<Point>& outline = geometry.elements[e].points;
+        for (std::size_t i = 0; i < outline.size(); ++i) {
+            const double away = core::distance_to_segment(p, outline[i], outline[(i + 1) % outline.size()]);
             if (!(away < least)) continue;
             least = away;
             nearest = e;
@@ -61,12 +65,14 @@ std::vector<geometry::WallSpacing> guide_by_solution(const std::vector<SizedWall
         growth.least_heights.clear();
     }
     for (const SizedWall& wall : walls) {
-        const std::size_t e = nearest_element(geometry, wall.points.front());
+        const std::optional<std::size_t> element = element_of(wall, geometry);
+        if (!element) continue;
         for (std::size_t i = 0; i < wall.points.size(); ++i) {
             const std::size_t next = (i + 1) % wall.points.size();
-            spacings.push_back({e, wall.points[i], wall.points[next], 0.5 * (wall.spacings[i] + wall.spacings[next])});
+            spacings.push_back(
+                {*element, wall.points[i], wall.points[next], 0.5 * (wall.spacings[i] + wall.spacings[next])});
         }
-        if (options.enabled) set_heights(e, wall, options, growth);
+        if (options.enabled) set_heights(*element, wall, options, growth);
     }
     growth.first_heights = layers::layer_growth(options, conditions, std::move(growth.first_heights)).first_heights;
     return spacings;

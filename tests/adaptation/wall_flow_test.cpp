@@ -61,7 +61,7 @@ TEST(WallFlow, FrictionAndThicknessAreThoseOfTheFlow) {
     constexpr double viscosity = 1e-6;
     for (const bool at_cells : {false, true}) {
         SCOPED_TRACE(at_cells);
-        const auto walls = adaptation::find_wall_flow(solution_with(made, at_cells), "U", viscosity);
+        const auto walls = adaptation::find_wall_flow(solution_with(made, at_cells), {"U", viscosity});
         ASSERT_EQ(walls.size(), 1u);
         ASSERT_EQ(walls[0].size(), made.surface_vertices);
         for (const adaptation::WallFlowEdge& edge : walls[0]) {
@@ -83,7 +83,7 @@ TEST(WallFlow, FlowThatRunsBackEndsNoBoundaryLayer) {
     const std::vector<double> away = wall_distances(made.mesh);
     for (std::size_t v = 0; v < away.size(); ++v)
         for (SolutionField& field : solution.fields) field.values[v] *= std::tanh(away[v] / scale - 0.5);
-    const auto walls = adaptation::find_wall_flow(solution, "U", 1e-6);
+    const auto walls = adaptation::find_wall_flow(solution, {"U", 1e-6});
     for (const adaptation::WallFlowEdge& edge : walls[0])
         if (edge.at.x > 0.3 && edge.at.x < 0.9) EXPECT_NEAR(edge.thickness, 5.8 * scale, 1.2 * scale) << edge.at.x;
 }
@@ -91,10 +91,10 @@ TEST(WallFlow, FlowThatRunsBackEndsNoBoundaryLayer) {
 TEST(WallFlow, RefusesWhatSaysNothingAboutWalls) {
     const MeshResult made = layered_mesh();
     const Solution solution = solution_with(made, false);
-    EXPECT_THROW(adaptation::find_wall_flow(solution, "V", 1e-6), OptionError);
+    EXPECT_THROW(adaptation::find_wall_flow(solution, {"V", 1e-6}), OptionError);
     Solution far = solution;
     std::erase_if(far.mesh.markers, [](const Marker& marker) { return marker.kind == MarkerKind::far_field; });
-    EXPECT_THROW(adaptation::find_wall_flow(far, "U", 1e-6), OptionError);
+    EXPECT_THROW(adaptation::find_wall_flow(far, {"U", 1e-6}), OptionError);
 }
 
 /// The next mesh has the y+ asked for, layers as thick as the boundary layer, and wall edges that are short where the pressure

@@ -147,6 +147,12 @@ public:
         }
     }
 
+    /// Returns Ray::growth.
+    double growth(std::size_t ray) const { return growths_.size() > 1 ? growths_[ray] : growths_[0]; }
+    /// Returns the heights, beginning with 0 for the wall.
+    std::span<const double> of(std::size_t ray) const { return tables_.size() > 1 ? tables_[ray] : tables_[0]; }
+
+private:
     /// Makes the tables of a law that ends at a thickness, ray by ray.
     void make_tables(const RaySet& set, const LayerGrowth& growth, const GrowthLawEntry& law) {
         for (const RayLine& ray : set.lines) {
@@ -160,12 +166,6 @@ public:
         }
     }
 
-    /// Returns Ray::growth.
-    double growth(std::size_t ray) const { return growths_.size() > 1 ? growths_[ray] : growths_[0]; }
-    /// Returns the heights, beginning with 0 for the wall.
-    std::span<const double> of(std::size_t ray) const { return tables_.size() > 1 ? tables_[ray] : tables_[0]; }
-
-private:
     std::vector<double> growths_;
     std::vector<std::vector<double>> tables_;
 };
