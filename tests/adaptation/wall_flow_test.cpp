@@ -136,5 +136,34 @@ TEST(WallFlow, TheNextMeshFollows) {
     EXPECT_GT(next.layer_coverage[0].all.made_cells, 0.99 * double(next.layer_coverage[0].all.requested_cells));
 }
 
+/// The walls of a solution above no-slip ground are two, and the body takes its own alone.
+TEST(WallFlow, TheGroundAsksNothingOfTheBody) {
+    CaseOptions options = near_options();
+    options.far_field.ground = 0.4;
+    options.far_field.ground_wall = OuterWallKind::no_slip;
+    options.layer.layers.reset();
+    options.layer.first_height = YPlus{1};
+    options.conditions.reynolds = 1e6;
+    options.sizing.background = [&] {
+        SizedMesh sizes;
+        const std::vector<Point> outline = one_section().elements[0].points;
+        SizedWall body{outline, {}, {}, {}}, ground{{{-5, -0.46}, {-3, -0.46}, {5, -0.46}}, {}, {}, {}};
+        for (auto& [wall, unit] : {std::pair<SizedWall*, double>{&body, 2e-5}, {&ground, 1e-7}}) {
+            wall->spacings.assign(wall->points.size(), 0.02);
+            wall->units.assign(wall->points.size(), unit);
+            wall->thicknesses.assign(wall->points.size(), 0.01);
+            sizes.walls.push_back(*wall);
+        }
+        sizes.points = {{-9, -9}, {9, -9}, {0, 9}};
+        sizes.triangles = {{{VertexId{0u}, VertexId{1u}, VertexId{2u}}}};
+        sizes.sizes = {5, 5, 5};
+        return std::make_shared<const SizedMesh>(sizes);
+    }();
+    const MeshResult made = generate_mesh(one_section(), options);
+    EXPECT_EQ(check_mesh(made.mesh).defect_count, 0u);
+    EXPECT_NEAR(made.first_heights[0], 2e-5, 1e-9);
+    EXPECT_EQ(made.check.walls.share_of_kept_heights, 1);
+}
+
 }  // namespace
 }  // namespace lamina::test
