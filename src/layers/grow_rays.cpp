@@ -217,6 +217,9 @@ bool lower_first_layers(Rays& rays, Share share) {
     return changed;
 }
 
+/// First layers whose fronts meet are made lower by this factor, at once or round by round.
+constexpr double share_where_fronts_meet = 0.5;
+
 /// Gives rays without room for a first layer a lower one, and first layers the room that they may take.
 ///
 ///     _______________     Below an opposite wall first layers of both sides would overlap all along the slot, which only
@@ -224,16 +227,12 @@ bool lower_first_layers(Rays& rays, Share share) {
 ///     _|_|_|_|_|_|_|_     a ray that crosses theirs.
 ///
 void fit_first_layers(Rays& rays) {
-    constexpr double below_limit = 0.999;   // so that rounding does not take the layer away
-    constexpr double most_of_gap = 0.45;    // two of them leave a tenth
-    constexpr double share_in_slots = 0.5;  // of the room: what rays get where fronts meet (count_layers_on_all_rays)
+    constexpr double below_limit = 0.999;  // so that rounding does not take the layer away
     const std::vector<double> first = first_heights_along(rays.set, rays.growth);
     const std::vector<double> walls = wall_limits(rays.set, first);
     std::vector<double> room(first.size());
-    for (std::size_t i = 0; i < room.size(); ++i) {
-        const bool meets = first[i] > most_of_gap / wall_fraction * walls[i];
-        room[i] = (meets ? share_in_slots : 1) * first_layer_room * rays.front[i];
-    }
+    for (std::size_t i = 0; i < room.size(); ++i)
+        room[i] = (first[i] > walls[i] ? share_where_fronts_meet : 1) * first_layer_room * rays.front[i];
     lower_first_layers(rays, [&](std::size_t i) { return room[i] < first[i] ? below_limit * room[i] / first[i] : 1; });
     for (std::size_t i = 0; i < first.size(); ++i)
         rays.limits[i] = std::max(rays.limits[i], std::min(first[i], room[i]));
@@ -248,7 +247,7 @@ void count_layers_on_all_rays(Rays& rays) {
         fit_and_count_layers(rays);
         if (round == max_rounds || !uses("lower_first")) return;
         const auto share = [&](std::size_t i) {
-            return rays.counts[i] == 0 && rays.asked[i] > 0 && rays.limits[i] > 0 ? 0.5 : 1;
+            return rays.counts[i] == 0 && rays.asked[i] > 0 && rays.limits[i] > 0 ? share_where_fronts_meet : 1;
         };
         if (!lower_first_layers(rays, share)) return;
     }

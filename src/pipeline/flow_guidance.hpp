@@ -17,9 +17,8 @@ namespace lamina::pipeline {
 /// has boundary layers.
 std::vector<double> first_heights_of_flow(const Flow& flow, double y_plus, double reynolds);
 
-/// Layers are made thicker than the boundary layer by this factor, since some height is lost where the front is smoothed.
-inline constexpr double lost_to_smoothing = 1.125;
-/// Layers are this many times as thick as the boundary layer before the mesh, which solvers find up to a fifth thicker.
+/// Layers are this many times as thick as the boundary layer, which solvers find up to a fifth thicker. Some of it is
+/// lost where the front is smoothed.
 inline constexpr double room_above = 1.35;
 
 /// Returns the heights that layers need along the walls: those of the boundary layers and some room above, never less

@@ -6,7 +6,6 @@
 #include <variant>
 
 #include "core/segments.hpp"
-#include "pipeline/flow_guidance.hpp"
 
 namespace lamina::pipeline {
 
@@ -45,7 +44,7 @@ std::vector<double> bounded_units(const std::vector<double>& units) {
 /// Gives the growth of layers the first heights of y+ on the wall of an element, and the heights of its boundary layer.
 void set_heights(std::size_t element, const SizedWall& wall, const LayerOptions& options, layers::LayerGrowth& growth) {
     for (std::size_t i = 0; i < wall.points.size(); ++i)
-        growth.least_heights.push_back({element, wall.points[i], lost_to_smoothing * wall.thicknesses[i]});
+        growth.least_heights.push_back({element, wall.points[i], wall.thicknesses[i]});
     const auto* y_plus = std::get_if<YPlus>(&options.first_height);
     if (!y_plus) return;
     const std::vector<double> units = bounded_units(wall.units);
