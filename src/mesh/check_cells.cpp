@@ -11,6 +11,7 @@
 #include "core/parallel.hpp"
 #include "core/predicates.hpp"
 #include "mesh/adjacency.hpp"
+#include "mesh/cell_orientation.hpp"
 #include "mesh/cell_text.hpp"
 #include "mesh/isotropic_cells.hpp"
 #include "mesh/triangle_shapes.hpp"
@@ -18,14 +19,6 @@
 namespace lamina::mesh {
 
 namespace {
-
-/// Returns a number that is > 0 for a counter-clockwise quad and 0 for a flat one. A quad is simple and
-/// counter-clockwise if one of its diagonals splits it in two counter-clockwise triangles.
-double quad_orientation(const Point* p) {
-    using core::inline_orient2d;
-    return std::max(std::min(inline_orient2d(p[0], p[1], p[2]), inline_orient2d(p[0], p[2], p[3])),
-                    std::min(inline_orient2d(p[0], p[1], p[3]), inline_orient2d(p[1], p[2], p[3])));
-}
 
 /// Reports a cell whose orientation has this sign unless the sign is positive.
 void require_positive(double sign, const MeshView& mesh, std::size_t cell, Point at, CellsSummary& summary) {

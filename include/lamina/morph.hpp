@@ -1,0 +1,105 @@
+// The same mesh round other shapes: new places for the vertices, the same cells, and the derivative of the places.
+//
+// Guarantees:
+//  1. Walls that do not move leave every bit of the mesh as it is. What stands on the rays above a wall vertex moves
+//     with it as a rigid body, so that first heights and right angles at walls stay.
+//  2. A mesh is only returned where all of its cells are counter-clockwise, exactly.
+//  3. Places use + - * / and square roots alone, in a fixed order, without contraction: they are the same bits on any
+//     machine and any number of threads.
+// Limits:
+//  1. The outer boundary, and all markers that are no walls, stay. Lines inside the mesh move with it.
+//  2. A map is one step from its reference mesh. Motions that turn a cell over end before that, or with a MeshError.
+// Example:
+//     const Mesh mesh = generate_mesh({"naca:0012:80"}, {.layer = {.first_height = 1e-3, .layers = 8}}).mesh;
+//     const MorphMap map(mesh);
+//     const std::vector<Point> thicker = wall_points_on(map, make_geometry({naca_airfoil("0013", 400)}));
+//     const MorphResult morphed = morph(map, thicker);
+//     assert(morphed.fraction == 1 && morphed.points.size() == mesh.points.size());
+//
+// Source: E. Luke, E. Collins, E. Blades, A fast mesh deformation method using explicit interpolation, J. Comput. Phys.
+// 231 (2012), section 2: each wall vertex has a displacement and a turn, and the mesh blends both. The blend here is
+// harmonic.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <lamina/geometry.hpp>
+#include <lamina/mesh.hpp>
+
+namespace lamina {
+
+/// The map from places of the wall vertices to those of all vertices, factored once for a reference mesh.
+class LAMINA_EXPORT MorphMap {
+public:
+    /// Precondition: check_mesh() finds no defect. The mesh must outlive the map.
+    explicit MorphMap(const Mesh& reference);
+    MorphMap(MorphMap&&) noexcept;             ///< leaves nothing but destruction to the other object
+    MorphMap& operator=(MorphMap&&) noexcept;  ///< does the same, and gives up the factors of this object
+    ~MorphMap();
+
+    const Mesh& reference() const;                  ///< the mesh that it is made for
+    const WallVertices& walls() const;              ///< the vertices that move as they are told
+    const std::vector<Point>& wall_points() const;  ///< where they are in the reference mesh
+
+    /// Returns the places of all vertices where the wall vertices, in the order of walls(), move to these points.
+    std::vector<Point> positions(std::span<const Point> wall) const;
+    /// Returns the derivative of positions() in a direction of the wall points.
+    std::vector<Point> jacobian_vector(std::span<const Point> wall, std::span<const Point> direction) const;
+    /// Returns the gradient by the wall points of a function whose gradient by the places of all vertices is given.
+    std::vector<Point> vector_jacobian(std::span<const Point> wall, std::span<const Point> gradient) const;
+
+private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+/// Options of morph().
+struct MorphOptions {
+    bool as_far_as_possible = false;  ///< whether a motion that stops on the way is returned as far as it goes
+};
+
+/// A mesh that was morphed, without its cells, which are those of the reference.
+struct MorphResult {
+    std::vector<Point> points;         ///< the places of all vertices
+    double fraction = 1;               ///< how much of the motion was made: a multiple of 1/64
+    std::optional<MeshDefect> stop{};  ///< the cell that stops it, and where it is in the reference mesh; empty: none
+};
+
+/// Moves the wall vertices in the order of MorphMap::walls() to these points, or in a straight line as far as all cells
+/// stay counter-clockwise. Throws InputError for a wrong number of points, for numbers that are not finite and for
+/// neighbours at one place, and MeshError, with the cell that stops it, where it gets nowhere or only to a fraction that
+/// is not asked for.
+LAMINA_EXPORT MorphResult morph(const MorphMap& map, std::span<const Point> wall, const MorphOptions& options = {});
+
+/// Returns the wall vertices on other shapes of the bodies, which are matched in their order. Between two corners they
+/// divide the arc length as they do in the mesh, on a spline through the points of the shape. Walls with ends stay.
+/// Throws InputError for another number of bodies, and where corners appear or vanish.
+LAMINA_EXPORT std::vector<Point> wall_points_on(const MorphMap& map, const Geometry& shape);
+/// Returns the wall vertices with the bodies changed: elements are the markers of the walls. Throws what transformed()
+/// throws, and InputError for changes that take or add points (flaps).
+LAMINA_EXPORT std::vector<Point> moved_wall_points(const MorphMap& map, std::span<const Transformation> changes);
+
+/// The quality of all cells of a mesh.
+struct MorphQuality {
+    double min_angle_deg = 0;       ///< smallest angle
+    double mean_min_angle_deg = 0;  ///< mean of the smallest angles of the cells
+    /// Smallest scaled Jacobian: the sine of an angle of a quad or, over that of 60 degrees, of a triangle. Source: P. M.
+    /// Knupp, Achieving finite element mesh quality via optimization of the Jacobian matrix norm (2000).
+    double min_scaled_jacobian = 0;
+};
+
+/// A mesh before and after.
+struct MorphReport {
+    MorphQuality before;                 ///< of the reference mesh
+    MorphQuality after;                  ///< of the morphed one
+    double max_first_height_change = 0;  ///< largest change of WallVertices::first_height, as a share of it
+    Point max_first_height_change_at{};  ///< at this wall vertex of the reference mesh
+};
+
+/// Measures both meshes. Precondition: `points` are those of a MorphResult of the map.
+LAMINA_EXPORT MorphReport compare_morphed(const MorphMap& map, std::span<const Point> points);
+
+}  // namespace lamina

@@ -1,0 +1,121 @@
+#include "morphing/motion_field.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "core/bounding_box.hpp"
+#include "morphing/complex.hpp"
+
+namespace lamina::morphing {
+
+namespace {
+
+constexpr std::uint32_t not_free = no_ray;
+
+/// Returns, per vertex, its number among the unknowns: the vertices that are on no ray and not on the boundary.
+std::vector<std::uint32_t> number_free(const Mesh& mesh, const Rays& rays) {
+    std::vector<bool> held(mesh.points.size(), false);
+    for (std::size_t v = 0; v < held.size(); ++v) held[v] = rays.of_vertex[v] != no_ray;
+    for (const Marker& marker : mesh.markers) {
+        if (marker.kind == MarkerKind::internal) continue;
+        for (const Segment& edge : marker.edges) held[edge.a.index()] = held[edge.b.index()] = true;
+    }
+    std::vector<std::uint32_t> number(held.size(), not_free);
+    std::uint32_t next = 0;
+    for (std::size_t v = 0; v < held.size(); ++v)
+        if (!held[v]) number[v] = next++;
+    return number;
+}
+
+/// Calls visit(triangle) for the triangles of a mesh, and for the halves of its quads on both sides of that diagonal
+/// which leaves the smaller half larger.
+template <class Visit>
+void for_each_triangle(const Mesh& mesh, Visit&& visit) {
+    for (const Triangle& triangle : mesh.triangles) visit(triangle);
+    const auto area = [&](VertexId a, VertexId b, VertexId c) {
+        const Point p = mesh.points[a.index()];
+        return cross(mesh.points[b.index()] - p, mesh.points[c.index()] - p);
+    };
+    for (const Quad& quad : mesh.quads) {
+        const auto [a, b, c, d] = quad.v;
+        if (std::min(area(a, b, c), area(a, c, d)) >= std::min(area(a, b, d), area(b, c, d))) {
+            visit(Triangle{{a, b, c}});
+            visit(Triangle{{a, c, d}});
+        } else {
+            visit(Triangle{{a, b, d}});
+            visit(Triangle{{b, c, d}});
+        }
+    }
+}
+
+Row row_of(const Motion& motion, Point wall) {
+    const Point shift = motion.shift - product(motion.turn, wall);
+    return {motion.turn.x, motion.turn.y, shift.x, shift.y};
+}
+
+}  // namespace
+
+MotionField::MotionField(const Mesh& mesh, const Rays& rays, std::span<const Point> wall) {
+    if (!wall.empty()) origin_ = core::bounding_box(wall).center();
+    for (const Ray& ray : rays.rays) wall_.push_back(wall[ray.wall] - origin_);
+    const std::vector<std::uint32_t> number = number_free(mesh, rays);
+    for (std::size_t v = 0; v < number.size(); ++v) {
+        if (number[v] == not_free) continue;
+        vertex_.push_back(static_cast<std::uint32_t>(v));
+        from_origin_.push_back(mesh.points[v] - origin_);
+    }
+    std::vector<Entry> entries;
+    // Half the cotangent of the angle at c couples a and b.
+    const auto couple = [&](VertexId a, VertexId b, VertexId c) {
+        const Point p = mesh.points[c.index()], to_a = mesh.points[a.index()] - p, to_b = mesh.points[b.index()] - p;
+        const double value = 0.5 * dot(to_a, to_b) / cross(to_a, to_b);
+        const std::array ends{a.index(), b.index()};
+        for (std::size_t k = 0; k < 2; ++k) {
+            const std::uint32_t here = number[ends[k]];
+            if (here == not_free) continue;
+            entries.push_back({here, here, value});
+            const std::size_t other = ends[1 - k];
+            if (number[other] != not_free) {
+                if (number[other] < here) entries.push_back({here, number[other], -value});
+            } else if (rays.of_vertex[other] != no_ray) {
+                couplings_.push_back({here, rays.of_vertex[other], value});
+            }
+        }
+    };
+    for_each_triangle(mesh, [&](const Triangle& t) {
+        couple(t.v[0], t.v[1], t.v[2]);
+        couple(t.v[1], t.v[2], t.v[0]);
+        couple(t.v[2], t.v[0], t.v[1]);
+    });
+    system_ = SymmetricSystem(vertex_.size(), entries);
+}
+
+void MotionField::displace(std::span<const Motion> motions, std::span<Point> displacement) const {
+    std::vector<Row> right(vertex_.size(), Row{});
+    for (const auto& [free, ray, value] : couplings_) {
+        const Row row = row_of(motions[ray], wall_[ray]);
+        for (std::size_t k = 0; k < 4; ++k) right[free][k] += value * row[k];
+    }
+    const std::vector<Row> field = system_.solve(right);
+    for (std::size_t i = 0; i < vertex_.size(); ++i)
+        displacement[vertex_[i]] =
+            product({field[i][0], field[i][1]}, from_origin_[i]) + Point{field[i][2], field[i][3]};
+}
+
+void MotionField::add_gradient(std::span<const Point> by_displacement, std::span<Motion> by_motion) const {
+    std::vector<Row> by_field;
+    for (std::size_t i = 0; i < vertex_.size(); ++i) {
+        const Point by_shift = by_displacement[vertex_[i]], by_turn = product(by_shift, conjugate(from_origin_[i]));
+        by_field.push_back({by_turn.x, by_turn.y, by_shift.x, by_shift.y});
+    }
+    const std::vector<Row> by_right = system_.solve(by_field);
+    for (const auto& [free, ray, value] : couplings_) {
+        const Row& row = by_right[free];
+        const Point by_turn{row[0], row[1]}, by_shift{row[2], row[3]};
+        Motion& motion = by_motion[ray];
+        motion.turn = motion.turn + value * (by_turn - product(by_shift, conjugate(wall_[ray])));
+        motion.shift = motion.shift + value * by_shift;
+    }
+}
+
+}  // namespace lamina::morphing

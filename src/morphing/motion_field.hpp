@@ -1,0 +1,45 @@
+// The motion beyond the rays: the rigid motions of the walls, blended smoothly down to none at the outer boundary.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <lamina/mesh.hpp>
+
+#include "morphing/rays.hpp"
+#include "morphing/symmetric_system.hpp"
+#include "morphing/wall_motion.hpp"
+
+namespace lamina::morphing {
+
+/// The solution of Laplace's equation, in linear finite elements on the reference mesh, for each of the four numbers of a
+/// motion x -> x + turn (x - o) + shift about one origin o. On the rays it is that of their own, and on the rest
+/// of the boundary none. A turn of everything therefore stays one near the walls, however far these are apart, and fades
+/// with the logarithm of the distance.
+class MotionField {
+public:
+    /// `wall` holds the wall vertices.
+    MotionField(const Mesh& mesh, const Rays& rays, std::span<const Point> wall);
+
+    /// Sets the displacements of the vertices beyond the rays, which are linear in the motions of the rays.
+    void displace(std::span<const Motion> motions, std::span<Point> displacement) const;
+    /// Adds to the gradient by the motions of a function whose gradient by the displacements is given.
+    void add_gradient(std::span<const Point> by_displacement, std::span<Motion> by_motion) const;
+
+private:
+    /// An edge of the mesh from a vertex beyond the rays to one on a ray.
+    struct Coupling {
+        std::uint32_t free, ray;
+        double value;
+    };
+    Point origin_{};
+    std::vector<std::uint32_t> vertex_;  ///< those beyond the rays
+    std::vector<Point> from_origin_;     ///< per such vertex
+    std::vector<Point> wall_;            ///< per ray: its wall vertex, from the origin
+    std::vector<Coupling> couplings_;
+    SymmetricSystem system_;
+};
+
+}  // namespace lamina::morphing
