@@ -21,6 +21,7 @@
 // harmonic.
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <span>
@@ -81,6 +82,11 @@ LAMINA_EXPORT std::vector<Point> wall_points_on(const MorphMap& map, const Geome
 /// Returns the wall vertices with the bodies changed: elements are the markers of the walls. Throws what transformed()
 /// throws, and InputError for changes that take or add points (flaps).
 LAMINA_EXPORT std::vector<Point> moved_wall_points(const MorphMap& map, std::span<const Transformation> changes);
+
+/// Returns the wall vertices with displacements from a CSV file added: lines "vertex,dx,dy", of which the first may be a
+/// heading. Vertices are those of the mesh, from 0; those without a line stay. Throws IoError, and InputError with the
+/// line where it is none of these, or names a vertex that is on no wall or was named before.
+LAMINA_EXPORT std::vector<Point> displaced_wall_points(const MorphMap& map, const std::filesystem::path& file);
 
 /// The quality of all cells of a mesh.
 struct MorphQuality {

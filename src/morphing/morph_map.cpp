@@ -29,11 +29,14 @@ struct MorphMap::Parts {
           wall(points_of_walls()),
           edges(edges_of_walls(reference, walls)),
           rays(find_rays(reference, walls, edges)),
-          turns(wall, edges, rays.rays, ray_heights()),
+          turns(wall, edges, rays.rays),
           field(reference, rays, wall) {}
 
     /// Returns a vertex on a ray, as seen from the ray's wall vertex.
     Point from_wall(std::size_t v) const { return mesh.points[v] - wall[rays.rays[rays.of_vertex[v]].wall]; }
+
+    /// Returns by how much it is beyond the vertices of its ray that keep their heights.
+    Point beyond_kept(std::size_t v) const { return rays.rays[rays.of_vertex[v]].beyond_kept(from_wall(v)); }
 
     /// Returns the displacement of all vertices by these motions of the rays, which it is linear in.
     std::vector<Point> displacements(std::span<const Motion> motions) const {
@@ -41,7 +44,8 @@ struct MorphMap::Parts {
         for (std::size_t v = 0; v < displacement.size(); ++v) {
             if (rays.of_vertex[v] == no_ray) continue;
             const Motion& motion = motions[rays.of_vertex[v]];
-            displacement[v] = product(motion.turn, from_wall(v)) + motion.shift;
+            displacement[v] =
+                product(motion.turn, from_wall(v)) + motion.shift + product(motion.stretch, beyond_kept(v));
         }
         field.displace(motions, displacement);
         return displacement;
@@ -52,16 +56,6 @@ private:
         std::vector<Point> points;
         for (const VertexId v : walls.vertex) points.push_back(mesh.points[v.index()]);
         return points;
-    }
-    /// Returns the heights of the highest rays above the wall vertices.
-    std::vector<double> ray_heights() const {
-        std::vector<double> heights(wall.size(), 0);
-        for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-            if (rays.of_vertex[v] == no_ray) continue;
-            double& height = heights[rays.rays[rays.of_vertex[v]].wall];
-            height = std::max(height, length(from_wall(v)));
-        }
-        return heights;
     }
 };
 
@@ -95,6 +89,7 @@ std::vector<Point> MorphMap::vector_jacobian(std::span<const Point> wall, std::s
         Motion& motion = by_motion[parts_->rays.of_vertex[v]];
         motion.turn = motion.turn + product(gradient[v], conjugate(parts_->from_wall(v)));
         motion.shift = motion.shift + gradient[v];
+        motion.stretch = motion.stretch + product(gradient[v], conjugate(parts_->beyond_kept(v)));
     }
     parts_->field.add_gradient(gradient, by_motion);
     return parts_->turns.gradient(wall, by_motion);

@@ -48,16 +48,14 @@ void for_each_triangle(const Mesh& mesh, Visit&& visit) {
     }
 }
 
-Row row_of(const Motion& motion, Point wall) {
-    const Point shift = motion.shift - product(motion.turn, wall);
-    return {motion.turn.x, motion.turn.y, shift.x, shift.y};
-}
-
 }  // namespace
 
 MotionField::MotionField(const Mesh& mesh, const Rays& rays, std::span<const Point> wall) {
     if (!wall.empty()) origin_ = core::bounding_box(wall).center();
-    for (const Ray& ray : rays.rays) wall_.push_back(wall[ray.wall] - origin_);
+    for (const Ray& ray : rays.rays) {
+        wall_.push_back(wall[ray.wall] - origin_);
+        kept_.push_back(wall_.back() + ray.kept);
+    }
     const std::vector<std::uint32_t> number = number_free(mesh, rays);
     for (std::size_t v = 0; v < number.size(); ++v) {
         if (number[v] == not_free) continue;
@@ -78,7 +76,9 @@ MotionField::MotionField(const Mesh& mesh, const Rays& rays, std::span<const Poi
             if (number[other] != not_free) {
                 if (number[other] < here) entries.push_back({here, number[other], -value});
             } else if (rays.of_vertex[other] != no_ray) {
-                couplings_.push_back({here, rays.of_vertex[other], value});
+                const Ray& ray = rays.rays[rays.of_vertex[other]];
+                const bool stretched = ray.beyond_kept(mesh.points[other] - wall[ray.wall]) != Point{};
+                couplings_.push_back({here, rays.of_vertex[other], stretched, value});
             }
         }
     };
@@ -90,11 +90,19 @@ MotionField::MotionField(const Mesh& mesh, const Rays& rays, std::span<const Poi
     system_ = SymmetricSystem(vertex_.size(), entries);
 }
 
+Row MotionField::row_of(const Motion& motion, const Coupling& coupling) const {
+    const Point stretch = coupling.stretched ? motion.stretch : Point{};
+    const Point turn = motion.turn + stretch;
+    const Point shift =
+        motion.shift - product(motion.turn, wall_[coupling.ray]) - product(stretch, kept_[coupling.ray]);
+    return {turn.x, turn.y, shift.x, shift.y};
+}
+
 void MotionField::displace(std::span<const Motion> motions, std::span<Point> displacement) const {
     std::vector<Row> right(vertex_.size(), Row{});
-    for (const auto& [free, ray, value] : couplings_) {
-        const Row row = row_of(motions[ray], wall_[ray]);
-        for (std::size_t k = 0; k < 4; ++k) right[free][k] += value * row[k];
+    for (const Coupling& coupling : couplings_) {
+        const Row row = row_of(motions[coupling.ray], coupling);
+        for (std::size_t k = 0; k < 4; ++k) right[coupling.free][k] += coupling.value * row[k];
     }
     const std::vector<Row> field = system_.solve(right);
     for (std::size_t i = 0; i < vertex_.size(); ++i)
@@ -109,12 +117,13 @@ void MotionField::add_gradient(std::span<const Point> by_displacement, std::span
         by_field.push_back({by_turn.x, by_turn.y, by_shift.x, by_shift.y});
     }
     const std::vector<Row> by_right = system_.solve(by_field);
-    for (const auto& [free, ray, value] : couplings_) {
+    for (const auto& [free, ray, stretched, value] : couplings_) {
         const Row& row = by_right[free];
         const Point by_turn{row[0], row[1]}, by_shift{row[2], row[3]};
         Motion& motion = by_motion[ray];
         motion.turn = motion.turn + value * (by_turn - product(by_shift, conjugate(wall_[ray])));
         motion.shift = motion.shift + value * by_shift;
+        if (stretched) motion.stretch = motion.stretch + value * (by_turn - product(by_shift, conjugate(kept_[ray])));
     }
 }
 

@@ -32,14 +32,18 @@ private:
     /// An edge of the mesh from a vertex beyond the rays to one on a ray.
     struct Coupling {
         std::uint32_t free, ray;
+        bool stretched;  ///< whether the latter is beyond the kept heights
         double value;
     };
     Point origin_{};
     std::vector<std::uint32_t> vertex_;  ///< those beyond the rays
     std::vector<Point> from_origin_;     ///< per such vertex
     std::vector<Point> wall_;            ///< per ray: its wall vertex, from the origin
+    std::vector<Point> kept_;            ///< per ray: the vertex beyond which it is stretched, from the origin
     std::vector<Coupling> couplings_;
     SymmetricSystem system_;
+
+    Row row_of(const Motion& motion, const Coupling& coupling) const;
 };
 
 }  // namespace lamina::morphing

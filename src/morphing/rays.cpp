@@ -81,13 +81,18 @@ public:
     void add(std::span<const std::uint32_t> vertices) {
         for (const std::uint32_t v : vertices) {
             const std::uint32_t ray = ray_through(v);
+            if (ray == no_ray) continue;
             const bool begins = ray < walls_.vertex.size();
             rays_.of_vertex[v] = begins ? static_cast<std::uint32_t>(rays_.rays.size()) : ray;
             if (begins) rays_.rays.push_back({ray, share_of(mesh_.points[v], ray)});
+            lengthen(rays_.rays[rays_.of_vertex[v]], mesh_.points[v]);
         }
     }
 
-    Rays take() { return std::move(rays_); }
+    Rays take() {
+        spread_fans();
+        return std::move(rays_);
+    }
 
 private:
     const Mesh& mesh_;
@@ -95,6 +100,11 @@ private:
     const Neighbours& neighbours_;
     std::vector<Point> normals_before_, normals_after_;  ///< per wall vertex: of its edges, into the flow
     Rays rays_;
+
+    void lengthen(Ray& ray, Point p) const {
+        ray.tip = p - origin_of(ray.wall);
+        if (ray.vertices++ < kept_layers) ray.kept = ray.tip;
+    }
 
     Point origin_of(std::size_t wall) const { return mesh_.points[walls_.vertex[wall].index()]; }
 
@@ -121,7 +131,21 @@ private:
         return along > 0 && 3 * off * off <= along * along ? std::abs(cross(ray, p - origin)) : HUGE_VAL;
     }
 
-    /// Returns Ray::share of the ray to a point, by the chords between unit vectors.
+    /// Lets the first and the last ray of each fan follow the edges beside them, which they make cells with.
+    void spread_fans() {
+        std::vector<double> least(walls_.vertex.size(), 1), most(walls_.vertex.size(), 0);
+        const auto fan = std::span(rays_.rays).subspan(walls_.vertex.size());
+        for (const Ray& ray : fan) {
+            least[ray.wall] = std::min(least[ray.wall], ray.share);
+            most[ray.wall] = std::max(most[ray.wall], ray.share);
+        }
+        for (Ray& ray : fan) {
+            const double low = least[ray.wall], high = most[ray.wall];
+            ray.share = high > low ? (ray.share - low) / (high - low) : 0.5;
+        }
+    }
+
+    /// Returns where a ray to a point stands between the normals of the edges, by the chords between unit vectors.
     double share_of(Point p, std::size_t wall) const {
         const Point ray = unit(p - origin_of(wall));
         const double before = distance(ray, normals_before_[wall]), after = distance(ray, normals_after_[wall]);

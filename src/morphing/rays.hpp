@@ -15,10 +15,21 @@ inline constexpr std::uint32_t no_ray = std::numeric_limits<std::uint32_t>::max(
 /// A straight row of vertices above a wall vertex.
 struct Ray {
     std::uint32_t wall;  ///< place of the wall vertex in WallVertices
-    /// Where it stands between the normals of the two edges at the wall vertex, from 0 at that of the edge before to 1 at
-    /// that of the edge after. The rays of a fan at a corner differ in it.
+    /// How much of the turn of the edge after the wall vertex it takes, and of that of the edge before the rest: from 0 at
+    /// the first to 1 at the last ray of a fan.
     double share = 0.5;
+    std::uint32_t vertices = 0;  ///< above the wall
+    Point kept{};                ///< the vertex, from the wall vertex, up to which all heights are kept
+    Point tip{};                 ///< its last vertex, from the wall vertex
+
+    /// Returns by how much a vertex of the ray, as seen from the wall vertex, is beyond the kept ones.
+    Point beyond_kept(Point from_wall) const {
+        return dot(from_wall - kept, from_wall) > 0 ? from_wall - kept : Point{};
+    }
 };
+
+/// The number of vertices of each ray that keep their heights however narrow a slot gets.
+inline constexpr std::uint32_t kept_layers = 10;
 
 /// The rays of a mesh.
 struct Rays {

@@ -83,6 +83,19 @@ TEST(Morph, MeshesWithoutLayersMoveToo) {
     expect_valid(map, morph(map, deformed_walls(map, 0.8, 0.02)).points);
 }
 
+TEST(Morph, LayersGiveWayInSlots) {
+    const Mesh mesh = mesh_with_slot();
+    const MorphMap map(mesh);
+    const auto raised = [&](double by) {
+        return moved_walls(map, [&](Point p) { return p.x < 1.005 ? p : Point{p.x - 0.005, p.y + by}; });
+    };
+    for (const double by : {0.006, -0.02}) {
+        const MorphResult result = morph(map, raised(by));
+        expect_valid(map, result.points);
+        EXPECT_LT(compare_morphed(map, result.points).max_first_height_change, 1e-9);
+    }
+}
+
 TEST(Morph, ScalesWithTheMesh) {
     const Mesh mesh = mesh_to_morph();
     Mesh large = mesh;

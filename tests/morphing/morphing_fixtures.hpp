@@ -27,6 +27,15 @@ inline Mesh mesh_to_morph(const std::vector<std::string>& inputs = {"naca:0012:1
     return generate_mesh(inputs, options_to_morph(topology)).mesh;
 }
 
+/// Returns the mesh of two sections, of which the second one begins below the tail of the first one.
+inline Mesh mesh_with_slot() {
+    Element flap = naca_airfoil("0012", 60);
+    for (Point& p : flap.points) p = {1.01 + 0.3 * p.x, -0.03 + 0.3 * p.y};
+    return generate_mesh(make_geometry({naca_airfoil("0012", 60), flap}, {.names = {"main", "flap"}}),
+                         options_to_morph())
+        .mesh;
+}
+
 /// Returns the wall points, each moved by a function of its place.
 template <class Move>
 std::vector<Point> moved_walls(const MorphMap& map, Move&& move) {
