@@ -13,6 +13,7 @@ void add_mesh_command(CLI::App& app, Ranks* ranks);
 void add_family_command(CLI::App& app);
 void add_sizes_command(CLI::App& app);
 void add_adapt_command(CLI::App& app);
+void add_morph_command(CLI::App& app);
 void add_batch_command(CLI::App& app);
 void add_case_command(CLI::App& app);
 void add_check_command(CLI::App& app);

@@ -1,0 +1,177 @@
+// lamina morph: the same mesh round other shapes.
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <lamina/error.hpp>
+#include <lamina/files.hpp>
+#include <lamina/io.hpp>
+#include <lamina/morph.hpp>
+#include <lamina/pipeline.hpp>
+
+#include "app/case.hpp"
+#include "app/commands.hpp"
+#include "app/format_help.hpp"
+#include "app/mesh_command_options.hpp"
+#include "app/report.hpp"
+#include "app/run_files.hpp"
+#include "app/standard_output.hpp"
+#include "app/summary.hpp"
+#include "app/table_option.hpp"
+
+namespace lamina::app {
+
+namespace {
+
+struct MorphArguments {
+    std::string mesh, mesh_format, displacements, output, report;
+    std::vector<std::string> shapes, transformations;
+    WriteOptions options;
+    MorphOptions morph;
+};
+
+bool is_case_file(const std::string& file) { return file.ends_with(".toml"); }
+
+/// Reads the mesh, or makes that of a case file. Throws MeshError where the mesh that is read is not valid.
+Mesh reference_mesh(const MorphArguments& arguments) {
+    if (is_case_file(arguments.mesh)) {
+        const MeshCase mesh_case = case_of_inputs({arguments.mesh});
+        return generate_mesh(mesh_case.inputs, options_with_files(mesh_case)).mesh;
+    }
+    Mesh mesh = read_mesh(arguments.mesh, {.format = arguments.mesh_format});
+    const MeshCheck check = check_mesh(mesh);
+    if (!check.valid())
+        throw MeshError(fmt::format("{}: not valid: {}", input_name(arguments.mesh), check.defects[0].description),
+                        check.defects[0].at);
+    return mesh;
+}
+
+/// Returns where the wall vertices go.
+std::vector<Point> wall_targets(const MorphMap& map, const MorphArguments& arguments, const GeometryOptions& options) {
+    if (!arguments.displacements.empty()) return displaced_wall_points(map, arguments.displacements);
+    if (arguments.shapes.empty()) return moved_wall_points(map, options.transformations);
+    return wall_points_on(map, read_geometry(arguments.shapes, options));
+}
+
+Json quality_of(const MorphQuality& quality) {
+    return {{"min_angle", quality.min_angle_deg},
+            {"mean_min_angle", quality.mean_min_angle_deg},
+            {"min_scaled_jacobian", quality.min_scaled_jacobian}};
+}
+
+Json morph_json(const MorphResult& result, const MorphReport& report) {
+    Json json{
+        {"fraction", result.fraction},
+        {"max_first_height_change", report.max_first_height_change},
+        {"max_first_height_change_at", {report.max_first_height_change_at.x, report.max_first_height_change_at.y}},
+        {"before", quality_of(report.before)},
+        {"after", quality_of(report.after)}};
+    if (result.stop)
+        json["stopped_by"] = {{"cell", result.stop->description}, {"at", {result.stop->at.x, result.stop->at.y}}};
+    return json;
+}
+
+std::string morph_summary(const MorphArguments& arguments, const MorphResult& result, const MorphReport& report) {
+    std::string text = fmt::format("{} morphed: {} vertices\n", input_name(arguments.mesh), result.points.size());
+    if (result.stop)
+        text += summary_line("motion", fmt::format("{:.3g} % of it: beyond that, {} at ({:.6g}, {:.6g}) turns over",
+                                                   100 * result.fraction, result.stop->description, result.stop->at.x,
+                                                   result.stop->at.y));
+    text +=
+        summary_line("heights", fmt::format("of first cells change by at most {:.2g} %, at ({:.6g}, {:.6g})",
+                                            100 * report.max_first_height_change, report.max_first_height_change_at.x,
+                                            report.max_first_height_change_at.y));
+    const auto change = [](const char* what, double before, double after) {
+        return fmt::format("{} {:.4g} before, {:.4g} after", what, before, after);
+    };
+    text += summary_line(
+        "angles", change("smallest", report.before.min_angle_deg, report.after.min_angle_deg) +
+                      change("; mean smallest", report.before.mean_min_angle_deg, report.after.mean_min_angle_deg));
+    text += summary_line(
+        "Jacobian", change("smallest, scaled:", report.before.min_scaled_jacobian, report.after.min_scaled_jacobian));
+    return text + summary_line("wrote", arguments.output);
+}
+
+/// Throws UsageError unless the arguments say in one way where the walls go.
+void require_one_way(const MorphArguments& arguments) {
+    const bool by_shape = !arguments.shapes.empty() || !arguments.transformations.empty();
+    if (by_shape == !arguments.displacements.empty())
+        throw UsageError("give --to SHAPE..., --transform, or both, or else --displacements");
+}
+
+std::vector<RunFile> files_to_write(const MorphArguments& arguments) {
+    std::vector<RunFile> files;
+    for (const auto& file : output_files(arguments.output, arguments.options))
+        files.push_back({file, "option --output"});
+    if (!arguments.report.empty()) files.push_back({arguments.report, "option --report"});
+    return files;
+}
+
+std::vector<RunFile> files_to_read(const MorphArguments& arguments) {
+    std::vector<RunFile> files = is_case_file(arguments.mesh) ? files_of_case(case_of_inputs({arguments.mesh}))
+                                                              : files_of_mesh(arguments.mesh, arguments.mesh_format);
+    for (const std::string& shape : arguments.shapes)
+        if (!shape.starts_with("naca:")) files.push_back({shape, "option --to"});
+    if (!arguments.displacements.empty()) files.push_back({arguments.displacements, "option --displacements"});
+    return files;
+}
+
+void run_morph(const MorphArguments& arguments) {
+    require_one_way(arguments);
+    GeometryOptions geometry;
+    set_by_name(option_table<GeometryOptions>(), "transform", arguments.transformations, geometry);
+    if (!is_case_file(arguments.mesh)) require_format(arguments.mesh, arguments.mesh_format, "--input-format");
+    require_format(arguments.output, arguments.options.format, "--format");
+    check_writable(arguments.output, arguments.options);
+    if (!arguments.report.empty()) check_folder_writable(arguments.report);
+    const std::vector<RunFile> outputs = files_to_write(arguments);
+    require_distinct(files_to_read(arguments), outputs);
+    const SignalGuard guard(outputs);
+
+    const Mesh reference = reference_mesh(arguments);
+    const MorphMap map(reference);
+    MorphResult result = morph(map, wall_targets(map, arguments, geometry), arguments.morph);
+    const MorphReport report = compare_morphed(map, result.points);
+    MeshView morphed = reference;
+    morphed.points = result.points;
+    write_mesh(morphed, arguments.output, arguments.options);
+    if (!arguments.report.empty()) write_file(arguments.report, to_text(morph_json(result, report)));
+    print_summary(morph_summary(arguments, result, report), outputs);
+}
+
+}  // namespace
+
+void add_morph_command(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("morph", "move a mesh to other shapes of its bodies, with the same cells");
+    auto arguments = std::make_shared<MorphArguments>();
+    command->add_option("MESH", arguments->mesh, "mesh file, or a case file (.toml), whose mesh is made first")
+        ->required();
+    add_input_format(*command, arguments->mesh_format);
+    command
+        ->add_option(
+            "--to", arguments->shapes,
+            "airfoil files or naca:DIGITS, one for each body, in the order of the bodies of the mesh; vertices "
+            "keep their shares of the arc length between corners")
+        ->type_name("SHAPE...");
+    add_repeated_table_option(*command, option_table<GeometryOptions>(), "transform", arguments->transformations)
+        ->description("change the bodies, which are named by their markers, or the shapes of --to: as for lamina mesh");
+    command
+        ->add_option("--displacements", arguments->displacements,
+                     "CSV file with a line 'vertex,dx,dy' for each wall vertex that moves, numbered as --wall-data of "
+                     "lamina mesh does")
+        ->type_name("FILE");
+    command->add_flag("--as-far-as-possible", arguments->morph.as_far_as_possible,
+                      "write a mesh that gets only a part of the way, since a cell would turn over beyond it");
+    command->add_option("-o,--output", arguments->output, "mesh file to write")->required()->type_name("NEW");
+    command->add_option("--format", arguments->options.format, "format of NEW")->type_name(format_names());
+    command->add_option("--report", arguments->report, "JSON file to write: the quality before and after")
+        ->type_name("FILE");
+    command->footer(format_help());
+    command->callback([arguments] { run_morph(*arguments); });
+}
+
+}  // namespace lamina::app
