@@ -17,6 +17,9 @@ void add_sections(nanobind::module_& module);
 /// Adds meshes: how they are made, read, checked and written.
 void add_meshes(nanobind::module_& module);
 
+/// Adds meshes that are moved to other shapes.
+void add_morphing(nanobind::module_& module);
+
 /// Adds triangulations and their refinement.
 void add_triangulations(nanobind::module_& module);
 

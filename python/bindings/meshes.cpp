@@ -26,18 +26,11 @@
 #include "interruption.hpp"
 #include "request.hpp"
 #include "sections.hpp"
+#include "shared_mesh.hpp"
 
 namespace lamina::python {
 
 namespace {
-
-/// A mesh that arrays of Python may still see. It never changes.
-struct SharedMesh {
-    std::shared_ptr<const Mesh> mesh;
-    const Mesh& operator*() const { return *mesh; }
-};
-
-SharedMesh shared(Mesh mesh) { return {std::make_shared<const Mesh>(std::move(mesh))}; }
 
 using OptionValues = std::vector<std::pair<std::string, OptionValue>>;
 using Background = std::tuple<PointsArgument, RowsArgument<std::uint32_t, 3>, ListArgument<double>>;

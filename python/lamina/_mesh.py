@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import os
 import warnings
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from types import MappingProxyType
@@ -15,6 +16,7 @@ import numpy as np
 from . import _lamina
 from ._arrays import immutable, index_array, points_array
 from ._errors import MeshWarning
+from ._sections import Sections
 
 #: The kinds of markers, in the order of the C++ enumeration.
 _KINDS = _lamina.marker_kinds
@@ -270,6 +272,20 @@ class Mesh:
         """Checks the mesh exactly and measures its quality: `lamina.check(mesh)`."""
         bound = _lamina.proved_min_angle if min_angle is None else min_angle
         return MeshCheck._from(self._data.check(bound, first_height))
+
+    def morph(self, to: Sections | None = None, *, transform: str | Sequence[str] = (), displacements: Any = None,
+              as_far_as_possible: bool = False) -> Mesh:
+        """Returns the same cells round other shapes of the bodies; the outer boundary stays.
+
+        One of these says where the walls go: `to`, sections in the order of the bodies, whose arc lengths between corners
+        are divided as those of the mesh; `transform`, changes as those of `lamina.mesh()`, such as
+        "flap:rotate:-5:0.8,0"; `displacements`, (n, 2) in the order of `wall.vertex`. `facts` of the result compare both
+        meshes. Raises InputError, and MeshError where a cell would turn over on the way, unless `as_far_as_possible`.
+        `lamina.MorphMap` keeps the factors for many shapes, and has the derivative.
+        """
+        from ._morph import morph
+
+        return morph(self, to, transform, displacements, as_far_as_possible)
 
     def write(self, path: str | os.PathLike[str], *, format: str = "", wall_distance: bool = False) -> None:
         """Writes the mesh to a file.
