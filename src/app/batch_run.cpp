@@ -20,9 +20,12 @@
 #include <lamina/error.hpp>
 #include <lamina/files.hpp>
 #include <lamina/io.hpp>
+#include <lamina/morph.hpp>
 #include <lamina/pipeline.hpp>
+#include <lamina/threads.hpp>
 #include <lamina/version.hpp>
 
+#include "app/check_report.hpp"
 #include "app/fingerprint.hpp"
 #include "app/mesh_command_options.hpp"
 #include "app/mesh_run.hpp"
@@ -106,8 +109,32 @@ bool is_unchanged(const Json& entry) {
     return contents && text_of(contents->hash) == entry["fnv1a"].get<std::string>();
 }
 
-/// Makes and writes the mesh of a job, and adds what is known about it to its record.
-void make_mesh(const MeshCase& mesh_case, unsigned jobs, bool strict, Json& record) {
+/// The mesh whose cells all meshes of a batch have.
+struct MeshTemplate {
+    Mesh mesh;
+    std::string hash;
+    MorphMap map;
+
+    explicit MeshTemplate(const std::string& file) : mesh(read_valid_mesh(file)), hash(mesh_hash(mesh)), map(mesh) {}
+};
+
+/// Moves the template to the bodies of a case.
+MeshResult morphed_mesh(const MeshTemplate& reference, const MeshCase& mesh_case, const CaseOptions& options) {
+    MeshResult result;
+    with_threads(options.threads, [&] {
+        result.geometry = read_geometry(mesh_case.inputs, options.geometry);
+        for (const Element& element : result.geometry.elements)
+            result.warnings.insert(result.warnings.end(), element.warnings.begin(), element.warnings.end());
+        result.mesh = reference.mesh;
+        result.mesh.points = morph(reference.map, wall_points_on(reference.map, result.geometry)).points;
+        result.check = check_mesh(result.mesh);
+    });
+    return result;
+}
+
+/// Makes and writes the mesh of a job, and adds what is known about it to its record. `reference`: the template; null:
+/// there is none.
+void make_mesh(const MeshCase& mesh_case, const MeshTemplate* reference, unsigned jobs, bool strict, Json& record) {
     require_consistent(mesh_case);
     require_whole(mesh_case);
     CaseOptions options = options_with_files(mesh_case);
@@ -115,10 +142,12 @@ void make_mesh(const MeshCase& mesh_case, unsigned jobs, bool strict, Json& reco
         *options.limits.max_memory_bytes /= jobs;  // what is free is for all that run at a time
     if (options.threads == 0) options.threads = 1;
     const MeshDestination destination = destination_of_outputs(mesh_case);
-    MeshResult result = generate_mesh(mesh_case.inputs, options);
+    MeshResult result =
+        reference != nullptr ? morphed_mesh(*reference, mesh_case, options) : generate_mesh(mesh_case.inputs, options);
     add_warnings_of_readers(mesh_case, destination, result);
     record["warnings"] = warnings_report(result.warnings);
-    require_promised_angles(result.check, mesh_case);
+    // A template is what its shapes make of it: it promises validity alone.
+    if (reference == nullptr) require_promised_angles(result.check, mesh_case);
     write_outputs(mesh_case, destination, result);
     record["files"] = files_report(mesh_case, destination);
     record["points"] = result.mesh.points.size();
@@ -130,7 +159,8 @@ void make_mesh(const MeshCase& mesh_case, unsigned jobs, bool strict, Json& reco
 }
 
 /// Returns the record of a job once it has run: one object of JSON.
-Json run_job(const BatchJob& job, const std::string& digits, unsigned jobs, bool strict) {
+Json run_job(const BatchJob& job, const MeshTemplate* reference, const std::string& digits, unsigned jobs,
+             bool strict) {
     Json record{{"job", id_of(job)}, {"fingerprint", digits}, {"name", job.name}};
     for (const auto& [option, value] : job.swept) record["sweep"][option] = value;
     record["outcome"] = "failed";
@@ -140,7 +170,7 @@ Json run_job(const BatchJob& job, const std::string& digits, unsigned jobs, bool
         record["error"] = error;
     };
     try {
-        make_mesh(job.mesh_case, jobs, strict, record);
+        make_mesh(job.mesh_case, reference, jobs, strict, record);
         record["outcome"] = "done";
         fail(ExitCode::done, "");
     } catch (const Error& error) {
@@ -255,6 +285,7 @@ class BatchRunner {
 public:
     BatchRunner(const std::vector<BatchJob>& jobs, const BatchSettings& settings)
         : jobs_(jobs), settings_(settings), records_(jobs.size()), fingerprints_(jobs.size()) {
+        if (!settings.template_mesh.empty()) template_.emplace(settings.template_mesh);
         threads_ = settings.jobs > 0 ? settings.jobs : std::max(1u, std::thread::hardware_concurrency());
         keep_earlier_records();
     }
@@ -272,6 +303,7 @@ public:
 private:
     const std::vector<BatchJob>& jobs_;
     const BatchSettings& settings_;
+    std::optional<MeshTemplate> template_;
     unsigned threads_ = 1;
     std::vector<Json> records_;
     std::vector<std::string> fingerprints_;
@@ -287,7 +319,7 @@ private:
         const std::map<std::string, Json> earlier = read_journal(settings_.journal);
         std::string kept;
         for (std::size_t i = 0; i < jobs_.size(); ++i) {
-            fingerprints_[i] = fingerprint(jobs_[i].mesh_case);
+            fingerprints_[i] = fingerprint(jobs_[i].mesh_case) + (template_ ? template_->hash : "");
             const auto found = earlier.find(id_of(jobs_[i]));
             if (found == earlier.end() || !still_holds(found->second, fingerprints_[i])) {
                 left_.push_back(i);
@@ -305,7 +337,8 @@ private:
         for (std::size_t n; (n = next_.fetch_add(1)) < left_.size();) {
             const std::size_t i = left_[n];
             try {
-                record(i, run_job(jobs_[i], fingerprints_[i], threads_, settings_.strict));
+                record(i, run_job(jobs_[i], template_ ? &*template_ : nullptr, fingerprints_[i], threads_,
+                                  settings_.strict));
             } catch (...) {
                 next_ = left_.size();
                 const std::lock_guard lock(mutex_);

@@ -24,6 +24,7 @@ struct BatchSettings {
     unsigned jobs = 0;              ///< number of meshes made at a time; 0: one per core
     std::filesystem::path journal;  ///< a line of JSON for each finished job, in the order in which they finish
     std::filesystem::path table;    ///< written at the end: a line of CSV for each job, in their order
+    std::string template_mesh;      ///< file of the mesh whose cells all meshes have; empty: each is made anew
     bool quiet = false;             ///< whether finished jobs are not printed on standard error
     bool strict = false;            ///< whether warnings make a job fail
 };

@@ -1,5 +1,9 @@
 #include "app/check_report.hpp"
 
+#include <fmt/format.h>
+
+#include <lamina/error.hpp>
+#include <lamina/files.hpp>
 #include <lamina/version.hpp>
 
 namespace lamina::app {
@@ -30,6 +34,14 @@ MeshCheck check_file_mesh(const MeshView& mesh, RegionOrigin regions, const Mesh
     // The last thin cell of a layer is rarely the last one.
     if (regions == RegionOrigin::estimate) check.transition = {};
     return check;
+}
+
+Mesh read_valid_mesh(const std::string& file, const std::string& format) {
+    Mesh mesh = read_mesh(file, {.format = format});
+    const MeshCheck check = check_mesh(mesh);
+    if (check.valid()) return mesh;
+    const MeshDefect& first = check.defects.front();
+    throw MeshError(fmt::format("{}: not valid: {}", input_name(file), first.description), first.at);
 }
 
 const char* kind_name(MarkerKind kind) {

@@ -28,6 +28,9 @@ RegionOrigin require_regions(StoredMesh& mesh);
 /// Checks a mesh from a file.
 MeshCheck check_file_mesh(const MeshView& mesh, RegionOrigin regions, const MeshCheckOptions& options = {});
 
+/// Reads a mesh. Throws MeshError where it is not valid.
+Mesh read_valid_mesh(const std::string& file, const std::string& format = {});
+
 /// Returns the kind of a marker in words: "far field".
 const char* kind_name(MarkerKind kind);
 

@@ -34,7 +34,7 @@ namespace {
 struct BatchArguments {
     unsigned jobs = 0;
     std::vector<std::string> sweeps;
-    std::string shard, summary;
+    std::string shard, summary, template_mesh;
 };
 
 /// An option with the values that a batch gives it.
@@ -178,20 +178,30 @@ public:
 
     std::vector<RunFile> take() { return std::move(files_); }
 
-private:
-    std::set<std::filesystem::path> inputs_, input_folders_, written_;
-    std::vector<RunFile> files_;
-
     void add_input(const std::filesystem::path& path) {
         inputs_.insert(path);
         std::filesystem::path folder = path.parent_path();
         while (input_folders_.insert(folder).second && folder.has_relative_path()) folder = folder.parent_path();
     }
+
+private:
+    std::set<std::filesystem::path> inputs_, input_folders_, written_;
+    std::vector<RunFile> files_;
 };
 
+/// Throws UsageError for files that tell how a mesh was made, which one of a template was not.
+void require_morphable(const std::vector<BatchJob>& jobs) {
+    for (const BatchJob& job : jobs)
+        if (!job.mesh_case.report.empty() || !job.mesh_case.html.empty())
+            throw UsageError("option --template: --report and --html tell how a mesh was made; leave them out");
+}
+
 /// Returns the files of all jobs and the given ones. Throws where a file would be written twice or replace an input.
-std::vector<RunFile> require_different_files(const std::vector<BatchJob>& jobs, const std::vector<RunFile>& others) {
+std::vector<RunFile> require_different_files(const std::vector<BatchJob>& jobs, const std::string& template_mesh,
+                                             const std::vector<RunFile>& others) {
     BatchFiles files(jobs);
+    if (!template_mesh.empty())
+        for (const RunFile& file : files_of_mesh(template_mesh, "")) files.add_input(path_behind_links(file.path));
     for (const BatchJob& job : jobs)
         for (const RunFile& file : files_written(job.mesh_case, destination_of_outputs(job.mesh_case)))
             files.add_output(file);
@@ -248,14 +258,16 @@ void batch(const GivenOptions& options, const BatchArguments& arguments) {
     const std::string stem = summary_stem(arguments, first_output, shard);
     settings.journal = stem + ".jsonl";
     settings.table = stem + ".csv";
-    const std::vector<RunFile> files =
-        require_different_files(all, {{settings.journal, "option --summary"}, {settings.table, "option --summary"}});
+    if (!arguments.template_mesh.empty()) require_morphable(all);
+    const std::vector<RunFile> files = require_different_files(
+        all, arguments.template_mesh, {{settings.journal, "option --summary"}, {settings.table, "option --summary"}});
 
     std::vector<BatchJob> jobs;
     for (std::size_t i = shard.number - 1; i < all.size(); i += shard.of) jobs.push_back(std::move(all[i]));
     const MeshCase common = jobs.empty() ? MeshCase{} : jobs.front().mesh_case;
     settings.quiet = common.quiet;
     settings.strict = common.strict;
+    settings.template_mesh = arguments.template_mesh;
     const SignalGuard guard(files);
     const std::vector<std::filesystem::path> created = prepare_folders(jobs, files);
     const BatchOutcome outcome = run_batch(jobs, settings);
@@ -288,6 +300,12 @@ void add_batch_command(CLI::App& app) {
         ->group("Batch");
     command->add_option("--shard", arguments->shard, "make the I-th of N parts of the meshes alone, for N machines")
         ->type_name("I/N")
+        ->group("Batch");
+    command
+        ->add_option("--template", arguments->template_mesh,
+                     "mesh whose cells all meshes get, moved to the shapes as lamina morph does: options of layers and "
+                     "sizes count for nothing then, and shapes that it cannot reach are rows that say so")
+        ->type_name("MESH")
         ->group("Batch");
     command
         ->add_option(

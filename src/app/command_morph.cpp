@@ -14,6 +14,7 @@
 #include <lamina/pipeline.hpp>
 
 #include "app/case.hpp"
+#include "app/check_report.hpp"
 #include "app/commands.hpp"
 #include "app/format_help.hpp"
 #include "app/mesh_command_options.hpp"
@@ -36,18 +37,13 @@ struct MorphArguments {
 
 bool is_case_file(const std::string& file) { return file.ends_with(".toml"); }
 
-/// Reads the mesh, or makes that of a case file. Throws MeshError where the mesh that is read is not valid.
+/// Reads the mesh, or makes that of a case file.
 Mesh reference_mesh(const MorphArguments& arguments) {
     if (is_case_file(arguments.mesh)) {
         const MeshCase mesh_case = case_of_inputs({arguments.mesh});
         return generate_mesh(mesh_case.inputs, options_with_files(mesh_case)).mesh;
     }
-    Mesh mesh = read_mesh(arguments.mesh, {.format = arguments.mesh_format});
-    const MeshCheck check = check_mesh(mesh);
-    if (!check.valid())
-        throw MeshError(fmt::format("{}: not valid: {}", input_name(arguments.mesh), check.defects[0].description),
-                        check.defects[0].at);
-    return mesh;
+    return read_valid_mesh(arguments.mesh, arguments.mesh_format);
 }
 
 /// Returns where the wall vertices go.

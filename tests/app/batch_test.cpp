@@ -10,6 +10,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <lamina/io.hpp>
+
 #include "app/program.hpp"
 
 namespace lamina::test {
@@ -44,6 +46,38 @@ std::vector<std::string> table_without_times(const TemporaryFolder& folder, cons
         line.erase(seconds, hash - seconds);
     }
     return lines;
+}
+
+TEST(Batch, TemplatesGiveAllShapesTheirCells) {
+    const TemporaryFolder folder;
+    std::vector<std::string> first{"mesh", "naca:0012:80", "-o", "first.vtu"};
+    first.insert(first.end(), quick.begin(), quick.end());
+    ASSERT_EQ(run_lamina(folder, first).exit_code, 0);
+    const std::vector<std::string> arguments{"naca:0013:200",  "naca:0010:200", "naca:0012:101:blunt",
+                                             "--template",     "first.vtu",     "-o",
+                                             "out/{name}.vtu", "--summary",     "s"};
+    const ProgramRun run = run_batch(folder, arguments);
+    EXPECT_EQ(run.exit_code, mesh_failed) << run.err;  // one shape has other corners
+    std::map<std::string, Json> records = journal(folder, "s.jsonl");
+    EXPECT_EQ(records["naca_0012_101_blunt"]["outcome"], "failed");
+    EXPECT_NE(records["naca_0012_101_blunt"]["error"].get<std::string>().find("corners"), std::string::npos);
+    const Mesh reference = read_mesh(folder / "first.vtu");
+    for (const char* name : {"naca_0013_200", "naca_0010_200"}) {
+        EXPECT_EQ(records[name]["outcome"], "done");
+        const Mesh morphed = read_mesh(folder / ("out/" + std::string(name) + ".vtu"));
+        EXPECT_EQ(morphed.triangles, reference.triangles);
+        EXPECT_NE(morphed.points, reference.points);
+        EXPECT_TRUE(check_mesh(morphed).valid());
+    }
+    run_batch(folder, arguments);
+    EXPECT_EQ(journal(folder, "s.jsonl")["naca_0013_200"], records["naca_0013_200"]);  // kept
+    const std::vector<std::string> one{"batch", "naca:0013:200", "--template", "first.vtu", "-o"};
+    const auto with = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), one.begin(), one.end());
+        return more;
+    };
+    expect_refused(folder, with({"first.vtu"}), usage, "would replace an input");
+    expect_refused(folder, with({"{name}.vtu", "--report", "{name}.json"}), usage, "option --template");
 }
 
 TEST(Batch, MeshesForOpenFoamHaveQuadsUnlessToldOtherwise) {
