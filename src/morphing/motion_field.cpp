@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "core/bounding_box.hpp"
 #include "morphing/complex.hpp"
@@ -87,7 +88,7 @@ MotionField::MotionField(const Mesh& mesh, const Rays& rays, std::span<const Poi
         couple(t.v[1], t.v[2], t.v[0]);
         couple(t.v[2], t.v[0], t.v[1]);
     });
-    system_ = SymmetricSystem(vertex_.size(), entries);
+    system_ = SymmetricSystem(vertex_.size(), std::move(entries));
 }
 
 Row MotionField::row_of(const Motion& motion, const Coupling& coupling) const {

@@ -3,50 +3,73 @@
 #include "morphing/symmetric_system.hpp"
 
 #include <cassert>
+#include <utility>
 
 #include <Eigen/SparseCholesky>
 
 namespace lamina::morphing {
 
-SymmetricSystem::SymmetricSystem(std::size_t n, std::span<const Entry> entries) {
-    using Matrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
-    if (n == 0) return;
-    std::vector<Eigen::Triplet<double, int>> triplets;
-    triplets.reserve(entries.size());
-    for (const Entry& entry : entries)
-        triplets.emplace_back(static_cast<int>(entry.row), static_cast<int>(entry.column), entry.value);
+namespace {
+
+using Matrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
+
+/// Returns the matrix, and takes the memory of the entries back.
+Matrix matrix_of(std::size_t n, std::vector<Entry> entries) {
+    struct Triplet {
+        const Entry* entry;
+        const Triplet* operator->() const { return this; }
+        const Triplet& operator*() const { return *this; }
+        int row() const { return static_cast<int>(entry->row); }
+        int col() const { return static_cast<int>(entry->column); }
+        double value() const { return entry->value; }
+        Triplet& operator++() { return ++entry, *this; }
+        bool operator!=(const Triplet& other) const { return entry != other.entry; }
+    };
     Matrix matrix(static_cast<int>(n), static_cast<int>(n));
-    matrix.setFromTriplets(triplets.begin(), triplets.end());
-    triplets = {};
-    const Eigen::SimplicialLDLT<Matrix, Eigen::Lower, Eigen::AMDOrdering<int>> factors(matrix);
-    assert(factors.info() == Eigen::Success);
-    const auto& order = factors.permutationP().indices();
-    place_.assign(order.data(), order.data() + n);
-    const auto triangle = factors.matrixL();
-    const Matrix& lower = triangle.nestedExpression();
-    first_.assign(lower.outerIndexPtr(), lower.outerIndexPtr() + n + 1);
-    row_.assign(lower.innerIndexPtr(), lower.innerIndexPtr() + first_.back());
-    value_.assign(lower.valuePtr(), lower.valuePtr() + first_.back());
-    const Eigen::VectorXd diagonal = factors.vectorD();
-    diagonal_.assign(diagonal.data(), diagonal.data() + n);
+    matrix.setFromTriplets(Triplet{entries.data()}, Triplet{entries.data() + entries.size()});
+    return matrix;
+}
+
+}  // namespace
+
+struct SymmetricSystem::Factors : Eigen::SimplicialLDLT<Matrix, Eigen::Lower, Eigen::AMDOrdering<int>> {
+    explicit Factors(const Matrix& matrix) : SimplicialLDLT(matrix) { assert(info() == Eigen::Success); }
+
+    /// The entries of L below its diagonal of ones, by columns; the diagonal of D; and the row of each unknown in both.
+    const Matrix& lower() const { return m_matrix; }
+    const Eigen::VectorXd& diagonal() const { return m_diag; }
+    const Eigen::VectorXi& places() const { return m_P.indices(); }
+};
+
+SymmetricSystem::SymmetricSystem() = default;
+SymmetricSystem::SymmetricSystem(SymmetricSystem&&) noexcept = default;
+SymmetricSystem& SymmetricSystem::operator=(SymmetricSystem&&) noexcept = default;
+SymmetricSystem::~SymmetricSystem() = default;
+
+SymmetricSystem::SymmetricSystem(std::size_t n, std::vector<Entry> entries) {
+    if (n > 0) factors_ = std::make_unique<const Factors>(matrix_of(n, std::move(entries)));
 }
 
 std::vector<Row> SymmetricSystem::solve(std::span<const Row> right) const {
-    const std::size_t n = size();
-    assert(right.size() == n);
-    std::vector<Row> x(n);
-    for (std::size_t i = 0; i < n; ++i) x[place_[i]] = right[i];
-    for (std::size_t j = 0; j < n; ++j)
-        for (std::size_t e = first_[j]; e < first_[j + 1]; ++e)
-            for (std::size_t k = 0; k < 4; ++k) x[row_[e]][k] -= value_[e] * x[j][k];
-    for (std::size_t j = n; j-- > 0;) {
-        Row& row = x[j];
-        for (double& number : row) number /= diagonal_[j];
-        for (std::size_t e = first_[j]; e < first_[j + 1]; ++e)
-            for (std::size_t k = 0; k < 4; ++k) row[k] -= value_[e] * x[row_[e]][k];
+    if (!factors_) return {};
+    const auto n = static_cast<int>(right.size());
+    assert(n == factors_->lower().cols());
+    const int* const first = factors_->lower().outerIndexPtr();
+    const int* const row = factors_->lower().innerIndexPtr();
+    const double* const value = factors_->lower().valuePtr();
+    std::vector<Row> x(right.size()), solution(right.size());
+    for (int i = 0; i < n; ++i) x[factors_->places()[i]] = right[i];
+    for (int j = 0; j < n; ++j)
+        for (int e = first[j]; e < first[j + 1]; ++e)
+            for (std::size_t k = 0; k < 4; ++k) x[row[e]][k] -= value[e] * x[j][k];
+    for (int j = n; j-- > 0;) {
+        Row sum = x[j];
+        for (double& number : sum) number /= factors_->diagonal()[j];
+        for (int e = first[j]; e < first[j + 1]; ++e)
+            for (std::size_t k = 0; k < 4; ++k) sum[k] -= value[e] * x[row[e]][k];
+        x[j] = sum;
     }
-    std::vector<Row> solution(n);
-    for (std::size_t i = 0; i < n; ++i) solution[i] = x[place_[i]];
+    for (int i = 0; i < n; ++i) solution[i] = x[factors_->places()[i]];
     return solution;
 }
 

@@ -4,10 +4,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
-
-#include <lamina/export.hpp>
 
 namespace lamina::morphing {
 
@@ -20,23 +19,22 @@ struct Entry {
     double value;
 };
 
-/// The factors L D L' of a matrix.
+/// The factors L D L' of a matrix, by which right-hand sides are solved one row of four at a time.
 class SymmetricSystem {
 public:
-    SymmetricSystem() = default;
+    SymmetricSystem();  ///< has no rows
     /// Factors a matrix of n rows, of which the entries on and below the diagonal are given.
-    SymmetricSystem(std::size_t n, std::span<const Entry> entries);
+    SymmetricSystem(std::size_t n, std::vector<Entry> entries);
+    SymmetricSystem(SymmetricSystem&&) noexcept;
+    SymmetricSystem& operator=(SymmetricSystem&&) noexcept;
+    ~SymmetricSystem();
 
-    std::size_t size() const { return place_.size(); }
     /// Returns the solution.
     std::vector<Row> solve(std::span<const Row> right) const;
 
 private:
-    std::vector<std::uint32_t> place_;  ///< per unknown: its row in the factors
-    std::vector<std::size_t> first_;    ///< per column of L: its first entry below the diagonal
-    std::vector<std::uint32_t> row_;    ///< per entry: its row
-    std::vector<double> value_;         ///< per entry: its value
-    std::vector<double> diagonal_;      ///< D
+    struct Factors;
+    std::unique_ptr<const Factors> factors_;  ///< null where there are no rows
 };
 
 }  // namespace lamina::morphing

@@ -49,7 +49,7 @@ WallTurns::WallTurns(std::vector<Point> wall, std::vector<Segment> edges, std::v
         for (const std::uint32_t e : {before, after}) entries.push_back({e, e, stiffness});
         entries.push_back({std::max(before, after), std::min(before, after), -stiffness});
     }
-    smoothing_ = SymmetricSystem(edges_.size(), entries);
+    smoothing_ = SymmetricSystem(edges_.size(), std::move(entries));
 }
 
 std::vector<Point> WallTurns::highest_tips() const {

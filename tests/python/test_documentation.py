@@ -10,7 +10,7 @@ import pytest
 
 import lamina
 
-PAGES = ["README.md", "docs/python.md", "docs/recipes/batch.md"]
+PAGES = ["README.md", "docs/python.md", "docs/recipes/batch.md", "docs/recipes/morphing.md"]
 # What pages name without making it first.
 FILES = {"section.dat": "rae2822.dat", "slat.dat": "crmhl2d_slat.dat", "main.dat": "crmhl2d_main.dat",
          "flap.dat": "crmhl2d_flap.dat"}
