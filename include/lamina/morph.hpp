@@ -17,8 +17,8 @@
 //     assert(morphed.fraction == 1 && morphed.points.size() == mesh.points.size());
 //
 // Source: E. Luke, E. Collins, E. Blades, A fast mesh deformation method using explicit interpolation, J. Comput. Phys.
-// 231 (2012), section 2: each wall vertex has a displacement and a turn, and the mesh blends both. The blend here is
-// harmonic.
+// 231 (2012), section 2: each wall vertex has a displacement and a turn, and the mesh blends both. The blend here solves
+// Laplace's equation with a stiffness that grows where cells are small.
 #pragma once
 
 #include <filesystem>

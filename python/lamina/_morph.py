@@ -17,7 +17,7 @@ from ._sections import Sections, section_list
 class MorphMap:
     """The map from places of the wall vertices to those of all vertices of a mesh, factored once.
 
-    Layers move as rigid bodies with their walls, and the rest by Laplace's equation; the outer boundary stays. Arrays of
+    Layers move as rigid bodies with their walls, and the rest smoothly; the outer boundary stays. Arrays of
     wall points are (n, 2) coordinates in the order of `wall`, in units of the input. Raises MeshError for a mesh that is
     not valid.
     """

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "core/bounding_box.hpp"
@@ -64,10 +65,11 @@ MotionField::MotionField(const Mesh& mesh, const Rays& rays, std::span<const Poi
         from_origin_.push_back(mesh.points[v] - origin_);
     }
     std::vector<Entry> entries;
-    // Half the cotangent of the angle at c couples a and b.
+    // Half the cotangent of the angle at c couples a and b, times the stiffness of the triangle.
     const auto couple = [&](VertexId a, VertexId b, VertexId c) {
         const Point p = mesh.points[c.index()], to_a = mesh.points[a.index()] - p, to_b = mesh.points[b.index()] - p;
-        const double value = 0.5 * dot(to_a, to_b) / cross(to_a, to_b);
+        const double twice_area = cross(to_a, to_b);
+        const double value = 0.5 * dot(to_a, to_b) / (twice_area * std::sqrt(twice_area));
         const std::array ends{a.index(), b.index()};
         for (std::size_t k = 0; k < 2; ++k) {
             const std::uint32_t here = number[ends[k]];

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -57,6 +58,21 @@ std::vector<bool> find_other_boundary(const Mesh& mesh) {
     return found;
 }
 
+/// Returns, per vertex, the lowest layer that it has a cell of; nothing where the layers of the cells are not known.
+std::vector<std::uint16_t> lowest_layers(const Mesh& mesh) {
+    if (mesh.layer.empty()) return {};
+    const mesh::CellEdges cells(mesh);
+    std::vector<std::uint16_t> lowest(mesh.points.size(), std::numeric_limits<std::uint16_t>::max());
+    for (std::size_t cell = 0; cell < cells.cells(); ++cell) {
+        if (mesh.layer[cell] == 0) continue;
+        for (std::size_t i = 0; i < cells.corners(cell); ++i) {
+            std::uint16_t& of_vertex = lowest[cells.corner(cell, i).index()];
+            of_vertex = std::min(of_vertex, mesh.layer[cell]);
+        }
+    }
+    return lowest;
+}
+
 /// Finds the rays from the wall outwards. A ray is straight: of the neighbours that are nearer to the wall, a vertex
 /// goes on along the ray that passes it most closely, as seen from that ray's wall vertex, or begins one there.
 class RayFinder {
@@ -66,7 +82,8 @@ public:
           walls_(walls),
           neighbours_(neighbours),
           normals_before_(walls.normal),
-          normals_after_(walls.normal) {
+          normals_after_(walls.normal),
+          levels_(lowest_layers(mesh)) {
         rays_.of_vertex.assign(mesh.points.size(), no_ray);
         for (std::size_t i = 0; i < walls.vertex.size(); ++i) {
             rays_.of_vertex[walls.vertex[i].index()] = static_cast<std::uint32_t>(i);
@@ -99,6 +116,7 @@ private:
     const WallVertices& walls_;
     const Neighbours& neighbours_;
     std::vector<Point> normals_before_, normals_after_;  ///< per wall vertex: of its edges, into the flow
+    std::vector<std::uint16_t> levels_;
     Rays rays_;
 
     void lengthen(Ray& ray, Point p) const {
@@ -113,11 +131,17 @@ private:
         double least = HUGE_VAL;
         for (const std::uint32_t u : neighbours_.of(v)) {
             const std::uint32_t ray = rays_.of_vertex[u];
-            if (ray == no_ray) continue;
+            if (ray == no_ray || !goes_up(u, v)) continue;
             const double off = distance_from_ray(mesh_.points[v], mesh_.points[u], rays_.rays[ray].wall);
             if (off < least || (off == least && ray < best)) std::tie(least, best) = std::pair(off, ray);
         }
         return best;
+    }
+
+    /// Returns whether a ray may go on from u to v: from a wall, or where v is above a higher layer. Behind a trailing edge
+    /// the line in the middle of a wake leaves the wall as a ray does, but stays below its first layer.
+    bool goes_up(std::uint32_t u, std::uint32_t v) const {
+        return levels_.empty() || rays_.of_vertex[u] < walls_.vertex.size() || levels_[v] > levels_[u];
     }
 
     /// Returns how far from a ray a point lies, which goes on from a vertex of it; infinite where it does not go on in

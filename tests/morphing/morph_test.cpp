@@ -96,6 +96,20 @@ TEST(Morph, LayersGiveWayInSlots) {
     }
 }
 
+TEST(Morph, WakesFollow) {
+    CaseOptions options = options_to_morph();
+    options.layer = {.first_height = 3e-6, .layers = std::nullopt, .wake_layers = true};
+    options.conditions.reynolds = 6e6;
+    options.use_flow = true;
+    const Mesh mesh = generate_mesh({"naca:0012"}, options).mesh;
+    const MorphMap map(mesh);
+    for (const double thickness : {0.8, 1.2}) {
+        const MorphResult result = morph(map, deformed_walls(map, thickness, 0));
+        expect_valid(map, result.points);
+        EXPECT_LT(compare_morphed(map, result.points).max_first_height_change, 0.01);
+    }
+}
+
 TEST(Morph, ScalesWithTheMesh) {
     const Mesh mesh = mesh_to_morph();
     Mesh large = mesh;
