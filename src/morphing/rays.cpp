@@ -133,7 +133,8 @@ private:
             const std::uint32_t ray = rays_.of_vertex[u];
             if (ray == no_ray || !goes_up(u, v)) continue;
             const double off = distance_from_ray(mesh_.points[v], mesh_.points[u], rays_.rays[ray].wall);
-            if (off < least || (off == least && ray < best)) std::tie(least, best) = std::pair(off, ray);
+            if (off < least || (off == least && off < HUGE_VAL && ray < best))
+                std::tie(least, best) = std::pair(off, ray);
         }
         return best;
     }

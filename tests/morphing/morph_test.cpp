@@ -37,14 +37,18 @@ TEST(Morph, LayersMoveAsRigidBodies) {
     const auto turn = [&](Point p) { return Point{c * p.x - s * p.y + 0.1, s * p.x + c * p.y - 0.05}; };
     const MorphResult result = morph(map, moved_walls(map, turn));
     expect_valid(map, result.points);
-    std::size_t turned = 0;
+    // All but the vertices that divide the layer's border between two rays, where it ends early.
+    std::size_t corners = 0, turned = 0;
     for (std::size_t cell = 0; cell < mesh.triangles.size(); ++cell) {
         if (mesh.region[cell] != Region::layer) continue;
-        for (const VertexId v : mesh.triangles[cell].v)
-            turned += distance(result.points[v.index()], turn(mesh.points[v.index()])) < 1e-14 ? 1 : 0;
+        for (const VertexId v : mesh.triangles[cell].v) {
+            const double off = distance(result.points[v.index()], turn(mesh.points[v.index()]));
+            EXPECT_LT(off, 2e-3);
+            ++corners;
+            turned += off < 1e-14 ? 1 : 0;
+        }
     }
-    const auto of_layer = static_cast<std::size_t>(std::count(mesh.region.begin(), mesh.region.end(), Region::layer));
-    EXPECT_EQ(turned, 3 * of_layer);
+    EXPECT_GT(turned, 0.98 * corners);
     EXPECT_LT(compare_morphed(map, result.points).max_first_height_change, 1e-9);
 }
 
@@ -94,6 +98,15 @@ TEST(Morph, LayersGiveWayInSlots) {
         expect_valid(map, result.points);
         EXPECT_LT(compare_morphed(map, result.points).max_first_height_change, 1e-9);
     }
+}
+
+// The border of a layer that ends early is divided between its rays: these vertices are on no ray.
+TEST(Morph, BordersBetweenRaysAreDivided) {
+    CaseOptions options = options_to_morph();
+    options.layer.layers = 8;
+    const Mesh mesh = generate_mesh({"naca:0012:80"}, options).mesh;
+    const MorphMap map(mesh);
+    for (const double thickness : {0.8, 1.2}) expect_valid(map, morph(map, deformed_walls(map, thickness, 0)).points);
 }
 
 TEST(Morph, WakesFollow) {
