@@ -17,8 +17,8 @@
 //     assert(morphed.fraction == 1 && morphed.points.size() == mesh.points.size());
 //
 // Source: E. Luke, E. Collins, E. Blades, A fast mesh deformation method using explicit interpolation, J. Comput. Phys.
-// 231 (2012), section 2: each wall vertex has a displacement and a turn, and the mesh blends both. The blend here solves
-// Laplace's equation with a stiffness that grows where cells are small.
+// 231 (2012), section 2: each wall vertex has a displacement and a turn, and the mesh blends both. The blend here
+// solves Laplace's equation with a stiffness that grows where cells are small.
 #pragma once
 
 #include <filesystem>
@@ -71,8 +71,8 @@ struct MorphResult {
 
 /// Moves the wall vertices in the order of MorphMap::walls() to these points, or in a straight line as far as all cells
 /// stay counter-clockwise. Throws InputError for a wrong number of points, for numbers that are not finite and for
-/// neighbours at one place, and MeshError, with the cell that stops it, where it gets nowhere or only to a fraction that
-/// is not asked for.
+/// neighbours at one place, and MeshError, with the cell that stops it, where it gets nowhere or only to a fraction
+/// that is not asked for.
 LAMINA_EXPORT MorphResult morph(const MorphMap& map, std::span<const Point> wall, const MorphOptions& options = {});
 
 /// Returns the wall vertices on other shapes of the bodies, which are matched in their order. Between two corners they
@@ -83,17 +83,17 @@ LAMINA_EXPORT std::vector<Point> wall_points_on(const MorphMap& map, const Geome
 /// throws, and InputError for changes that take or add points (flaps).
 LAMINA_EXPORT std::vector<Point> moved_wall_points(const MorphMap& map, std::span<const Transformation> changes);
 
-/// Returns the wall vertices with displacements from a CSV file added: lines "vertex,dx,dy", of which the first may be a
-/// heading. Vertices are those of the mesh, from 0; those without a line stay. Throws IoError, and InputError with the
-/// line where it is none of these, or names a vertex that is on no wall or was named before.
+/// Returns the wall vertices with displacements from a CSV file added: lines "vertex,dx,dy", of which the first may be
+/// a heading. Vertices are those of the mesh, from 0; those without a line stay. Throws IoError, and InputError with
+/// the line where it is none of these, or names a vertex that is on no wall or was named before.
 LAMINA_EXPORT std::vector<Point> displaced_wall_points(const MorphMap& map, const std::filesystem::path& file);
 
 /// The quality of all cells of a mesh.
 struct MorphQuality {
     double min_angle_deg = 0;       ///< smallest angle
     double mean_min_angle_deg = 0;  ///< mean of the smallest angles of the cells
-    /// Smallest scaled Jacobian: the sine of an angle of a quad or, over that of 60 degrees, of a triangle. Source: P. M.
-    /// Knupp, Achieving finite element mesh quality via optimization of the Jacobian matrix norm (2000).
+    /// Smallest scaled Jacobian: the sine of an angle of a quad or, over that of 60 degrees, of a triangle. Source: P.
+    /// M. Knupp, Achieving finite element mesh quality via optimization of the Jacobian matrix norm (2000).
     double min_scaled_jacobian = 0;
 };
 

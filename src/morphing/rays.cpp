@@ -139,8 +139,8 @@ private:
         return best;
     }
 
-    /// Returns whether a ray may go on from u to v: from a wall, or where v is above a higher layer. Behind a trailing edge
-    /// the line in the middle of a wake leaves the wall as a ray does, but stays below its first layer.
+    /// Returns whether a ray may go on from u to v: from a wall, or where v is above a higher layer. Behind a trailing
+    /// edge the line in the middle of a wake leaves the wall as a ray does, but stays below its first layer.
     bool goes_up(std::uint32_t u, std::uint32_t v) const {
         return levels_.empty() || rays_.of_vertex[u] < walls_.vertex.size() || levels_[v] > levels_[u];
     }

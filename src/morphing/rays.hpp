@@ -15,8 +15,8 @@ inline constexpr std::uint32_t no_ray = std::numeric_limits<std::uint32_t>::max(
 /// A straight row of vertices above a wall vertex.
 struct Ray {
     std::uint32_t wall;  ///< place of the wall vertex in WallVertices
-    /// How much of the turn of the edge after the wall vertex it takes, and of that of the edge before the rest: from 0 at
-    /// the first to 1 at the last ray of a fan.
+    /// How much of the turn of the edge after the wall vertex it takes, and of that of the edge before the rest: from 0
+    /// at the first to 1 at the last ray of a fan.
     double share = 0.5;
     std::uint32_t vertices = 0;  ///< above the wall
     Point kept{};                ///< the vertex, from the wall vertex, up to which all heights are kept
@@ -37,7 +37,8 @@ struct Rays {
     std::vector<std::uint32_t> of_vertex;  ///< per vertex of the mesh: its ray, or no_ray
 };
 
-/// Finds the rays. `edges` are those of edges_of_walls(). A mesh without regions has those that estimate_regions() finds.
+/// Finds the rays. `edges` are those of edges_of_walls(). A mesh without regions has those that estimate_regions()
+/// finds.
 Rays find_rays(const Mesh& mesh, const WallVertices& walls, std::span<const Segment> edges);
 
 }  // namespace lamina::morphing

@@ -1,5 +1,6 @@
-// Source: P. R. Amestoy, T. A. Davis, I. S. Duff, An approximate minimum degree ordering algorithm, SIAM J. Matrix Anal.
-// Appl. 17 (1996), and T. A. Davis, Direct Methods for Sparse Linear Systems (2006), section 4.8, both as in Eigen.
+// Source: P. R. Amestoy, T. A. Davis, I. S. Duff, An approximate minimum degree ordering algorithm, SIAM J. Matrix
+// Anal. Appl. 17 (1996), and T. A. Davis, Direct Methods for Sparse Linear Systems (2006), section 4.8, both as in
+// Eigen.
 #include "morphing/symmetric_system.hpp"
 
 #include <cassert>

@@ -13,13 +13,13 @@ namespace {
 
 constexpr std::uint32_t no_wall_edge = std::numeric_limits<std::uint32_t>::max();
 
-/// Along so many heights of the rays turns are smoothed. Of 50 random sections (10 % of the thickness) the worst first height
-/// changes by 3 % with 1, by 0.9 % with 1/4 and by 0.2 % with 0, where the slot of a flap that is raised by 5 degrees gets
-/// a cell that turns over.
+/// Along so many heights of the rays turns are smoothed. Of 50 random sections (10 % of the thickness) the worst first
+/// height changes by 3 % with 1, by 0.9 % with 1/4 and by 0.2 % with 0, where the slot of a flap that is raised by 5
+/// degrees gets a cell that turns over.
 constexpr double reach_of_turns = 0.25;
 
-/// Returns the derivative of unit(a) in a direction. As a matrix it is symmetric, so that it also makes the gradient by a
-/// of a function from its gradient by unit(a).
+/// Returns the derivative of unit(a) in a direction. As a matrix it is symmetric, so that it also makes the gradient by
+/// a of a function from its gradient by unit(a).
 Point unit_derivative(Point a, Point direction) {
     const Point u = unit(a);
     return (1 / length(a)) * (direction - dot(u, direction) * u);

@@ -14,22 +14,22 @@
 
 namespace lamina::morphing {
 
-/// The motion x -> x + turn (x - w) + shift of a ray above a wall vertex w, in complex numbers; what is beyond the vertex k
-/// up to which heights are kept moves by stretch (x - k) as well. A turn by a unit vector u is u - 1, so that a motion which
-/// leaves everything in its place holds zeros.
+/// The motion x -> x + turn (x - w) + shift of a ray above a wall vertex w, in complex numbers; what is beyond the
+/// vertex k up to which heights are kept moves by stretch (x - k) as well. A turn by a unit vector u is u - 1, so that
+/// a motion which leaves everything in its place holds zeros.
 struct Motion {
     Point turn;
     Point shift;
     Point stretch;
 };
 
-/// The turns of the edges of the walls, smoothed along the walls, and the motions of the rays that follow. Gap::stretch(),
-/// at the ends of the edges, is smoothed in the same way.
+/// The turns of the edges of the walls, smoothed along the walls, and the motions of the rays that follow.
+/// Gap::stretch(), at the ends of the edges, is smoothed in the same way.
 ///
-/// Each edge turns by a unit vector r. The smoothed turns t minimise the sum over the edges of length |t - r|^2, and over
-/// the pairs of neighbours of weight reach^2 / distance |t_before - t_after|^2: turns that change less along the wall
-/// than over a share of the rays' height, which is the reach, let no rays cross. The weight is the cosine of the angle between
-/// the two, and 0 beyond a right angle: the rays of a fan share out what its corner opens or closes.
+/// Each edge turns by a unit vector r. The smoothed turns t minimise the sum over the edges of length |t - r|^2, and
+/// over the pairs of neighbours of weight reach^2 / distance |t_before - t_after|^2: turns that change less along the
+/// wall than over a share of the rays' height, which is the reach, let no rays cross. The weight is the cosine of the
+/// angle between the two, and 0 beyond a right angle: the rays of a fan share out what its corner opens or closes.
 class WallTurns {
 public:
     /// `edges` are places in `wall`, the wall vertices.
