@@ -35,11 +35,11 @@ struct MorphArguments {
     MorphOptions morph;
 };
 
-bool is_case_file(const std::string& file) { return file.ends_with(".toml"); }
+bool is_case_to_morph(const std::string& file) { return file.ends_with(".toml"); }
 
 /// Reads the mesh, or makes that of a case file.
 Mesh reference_mesh(const MorphArguments& arguments) {
-    if (is_case_file(arguments.mesh)) {
+    if (is_case_to_morph(arguments.mesh)) {
         const MeshCase mesh_case = case_of_inputs({arguments.mesh});
         return generate_mesh(mesh_case.inputs, options_with_files(mesh_case)).mesh;
     }
@@ -53,7 +53,7 @@ std::vector<Point> wall_targets(const MorphMap& map, const MorphArguments& argum
     return wall_points_on(map, read_geometry(arguments.shapes, options));
 }
 
-Json quality_of(const MorphQuality& quality) {
+Json morph_quality(const MorphQuality& quality) {
     return {{"min_angle", quality.min_angle_deg},
             {"mean_min_angle", quality.mean_min_angle_deg},
             {"min_scaled_jacobian", quality.min_scaled_jacobian}};
@@ -64,8 +64,8 @@ Json morph_json(const MorphResult& result, const MorphReport& report) {
         {"fraction", result.fraction},
         {"max_first_height_change", report.max_first_height_change},
         {"max_first_height_change_at", {report.max_first_height_change_at.x, report.max_first_height_change_at.y}},
-        {"before", quality_of(report.before)},
-        {"after", quality_of(report.after)}};
+        {"before", morph_quality(report.before)},
+        {"after", morph_quality(report.after)}};
     if (result.stop)
         json["stopped_by"] = {{"cell", result.stop->description}, {"at", {result.stop->at.x, result.stop->at.y}}};
     return json;
@@ -108,8 +108,9 @@ std::vector<RunFile> files_to_write(const MorphArguments& arguments) {
 }
 
 std::vector<RunFile> files_to_read(const MorphArguments& arguments) {
-    std::vector<RunFile> files = is_case_file(arguments.mesh) ? files_of_case(case_of_inputs({arguments.mesh}))
-                                                              : files_of_mesh(arguments.mesh, arguments.mesh_format);
+    std::vector<RunFile> files = is_case_to_morph(arguments.mesh)
+                                     ? files_of_case(case_of_inputs({arguments.mesh}))
+                                     : files_of_mesh(arguments.mesh, arguments.mesh_format);
     for (const std::string& shape : arguments.shapes)
         if (!shape.starts_with("naca:")) files.push_back({shape, "option --to"});
     if (!arguments.displacements.empty()) files.push_back({arguments.displacements, "option --displacements"});
@@ -120,7 +121,7 @@ void run_morph(const MorphArguments& arguments) {
     require_one_way(arguments);
     GeometryOptions geometry;
     set_by_name(option_table<GeometryOptions>(), "transform", arguments.transformations, geometry);
-    if (!is_case_file(arguments.mesh)) require_format(arguments.mesh, arguments.mesh_format, "--input-format");
+    if (!is_case_to_morph(arguments.mesh)) require_format(arguments.mesh, arguments.mesh_format, "--input-format");
     require_format(arguments.output, arguments.options.format, "--format");
     check_writable(arguments.output, arguments.options);
     if (!arguments.report.empty()) check_folder_writable(arguments.report);
