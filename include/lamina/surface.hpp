@@ -45,8 +45,10 @@ struct StationSpacing {
 
 /// Numbers of wall edges on both sides of an element.
 struct SideEdges {
-    std::size_t upper = 0;  ///< of the side that the outline runs over first
-    std::size_t lower = 0;  ///< of the other one
+    std::size_t upper = 0;              ///< of the side that the outline runs over first
+    std::size_t lower = 0;              ///< of the other one
+    std::optional<std::size_t> base{};  ///< of the base, of equal length; empty: one for 50 of the others
+    std::string element = "all";        ///< its name, or "all"
 };
 
 /// Options of prepare_surfaces(). Lengths are shares of the element's length, the longer side of the tightest box round
@@ -57,10 +59,11 @@ struct SurfaceOptions {
     /// Whether each element gets exactly `points` vertices: edges are shared out among the stretches between corners by
     /// the integrals of ds / spacing. Needs `points`, and no treatment `keep`.
     bool exact_points = false;
-    /// Edges of bases, of equal length, with `exact_points` or `side_edges`; empty: one for 50 of the others.
+    /// Edges of bases, of equal length, with `exact_points`; empty: one for 50 of the others.
     std::optional<std::size_t> base_edges{};
-    /// Exact numbers of edges on the sides of each element; those of the base come with base_edges. Excludes `points`.
-    std::optional<SideEdges> side_edges{};
+    /// Exact numbers of edges on the sides of elements, the last ones given of those of its name, else of those of all.
+    /// Elements without are treated as without this. Excludes `points`.
+    std::vector<SideEdges> side_edges{};
     std::vector<StationSpacing> station_spacings{};  ///< spacings at stations; they make `automatic` resample
     std::optional<Length> smooth{};  ///< points are smoothed first, and move by at most this; empty: no smoothing
     double max_turning_deg = 10;     ///< largest turning at a vertex between two corners

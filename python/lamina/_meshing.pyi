@@ -24,9 +24,10 @@ def mesh(
     # element, or there is no mesh; BASE edges on the base of a blunt trailing edge (N / 50); one ray at each
     # vertex, but at sharp corners a fan with the rays of half a turn, max-ray-angle apart; >= 3 and <= 1e+07
     exact_points: str | float | Sequence[float] | None = None,
-    # exactly so many wall edges on both sides of each element, or there is no mesh; BASE edges on the base of a
-    # blunt trailing edge (one for 50 of the others); >= 1 and <= 1e+06
-    points: str | float | Sequence[float] | None = None,
+    # exactly so many wall edges on both sides of each element, or of one, or there is no mesh; BASE edges on
+    # the base of a blunt trailing edge (one for 50 of the others); may be given several times; >= 1 and <=
+    # 1e+06
+    points: str | float | Sequence[str | float] | None = None,
     # wall spacing at the leading edge at most, in lengths of the element; makes auto resample. Where the
     # curvature asks for less, it gets less; > 0
     spacing_le: float | None = None,

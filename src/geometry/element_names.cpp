@@ -20,9 +20,6 @@ namespace lamina::geometry {
 
 namespace {
 
-/// The name that stands for all elements in an option.
-constexpr const char* every_element = "all";
-
 bool is_named(const Element& e, const std::string& name) { return e.name == name || e.given_name == name; }
 
 /// Returns the stem of the element's file, "naca" and its digits, or the name that standard input has.

@@ -16,6 +16,9 @@ inline constexpr std::string_view naca_prefix = "naca:";
 /// and for repeated names.
 void name_elements(std::vector<Element>& elements, const GeometryOptions& options);
 
+/// The name that stands for all elements in options.
+inline constexpr const char* every_element = "all";
+
 /// Returns whether the name in an option stands for an element: its name, also as it was given, or "all".
 bool stands_for(const std::string& name, const Element& element);
 

@@ -78,14 +78,15 @@ BorderForecast forecast_border(const Geometry& walls, std::size_t element, const
 }  // namespace
 
 void require_surface_points_within(const SurfaceOptions& options, std::size_t elements, const WorkBudget& budget) {
-    if ((!options.points && !options.side_edges) || options.treatment == SurfaceTreatment::keep) return;
-    const std::size_t points =
-        options.side_edges ? options.side_edges->upper + options.side_edges->lower : *options.points;
+    if (options.treatment == SurfaceTreatment::keep) return;
+    std::size_t points = options.points.value_or(0);
+    for (const SideEdges& sides : options.side_edges) points = std::max(points, sides.upper + sides.lower);
+    if (points == 0) return;
     const auto edges = static_cast<double>(elements) * static_cast<double>(points);
     RunEstimate estimate = estimate_run(edges, budget.cost, thread_count(), seconds_per_border_edge * edges);
     estimate.memory_bytes += bytes_per_border_edge * edges;
     require_within(budget.limits, estimate,
-                   options.side_edges     ? "points"
+                   !options.points        ? "points"
                    : options.exact_points ? "exact_points"
                                           : "surface_points",
                    std::to_string(points));

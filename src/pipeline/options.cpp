@@ -106,7 +106,7 @@ OptionTable<CaseOptions> option_rows() {
         // Walls that are alike by number have rays that are.
         option.set = [set_points = option.set](CaseOptions& options, const OptionValue& value) {
             set_points(options, value);
-            options.layer.equal_fans = true;
+            options.layer.equal_fans = options.surface.exact_points || !options.surface.side_edges.empty();
         };
     }
     return table;

@@ -273,9 +273,9 @@ Decision decide(const Element& e, std::size_t index, const ResamplingRequest& re
     if (options.points)
         return all(EdgeTreatment::spline, fmt::format("{} {} points are requested",
                                                       options.exact_points ? "exactly" : "about", *options.points));
-    if (options.side_edges)
+    if (const SideEdges* sides = side_edges_of(options, e))
         return all(EdgeTreatment::spline, fmt::format("{} edges on the upper and {} on the lower side are requested",
-                                                      options.side_edges->upper, options.side_edges->lower));
+                                                      sides->upper, sides->lower));
     if (options.treatment == SurfaceTreatment::resample) return all(EdgeTreatment::spline, "as requested");
     const bool has_station = std::any_of(options.station_spacings.begin(), options.station_spacings.end(),
                                          [&](const StationSpacing& s) { return geometry::stands_for(s.element, e); });

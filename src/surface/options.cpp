@@ -8,6 +8,7 @@
 
 #include "core/option_rows.hpp"
 #include "core/text.hpp"
+#include "geometry/element_names.hpp"
 
 namespace lamina {
 
@@ -28,12 +29,15 @@ std::vector<std::int64_t> counts_of(const std::string& text, const char* key) {
     return numbers;
 }
 
-void set_base_edges(SurfaceOptions& options, std::span<const std::int64_t> number, const char* key) {
-    options.base_edges.reset();
-    if (number.empty()) return;
+/// Returns the number of edges of a base, where one is given.
+std::optional<std::size_t> base_edges_of(std::span<const std::int64_t> number, const char* key) {
+    if (number.empty()) return {};
     require_in_range(base_edge_numbers, static_cast<double>(number[0]), key);
-    options.base_edges = static_cast<std::size_t>(number[0]);
+    return static_cast<std::size_t>(number[0]);
 }
+
+/// Returns the end of a text that base_edges_of() reads back.
+std::string base_text(const std::optional<std::size_t>& edges) { return edges ? ":" + core::to_text(*edges) : ""; }
 
 void set_exact_points(SurfaceOptions& options, const OptionValue& value) {
     const std::string text = as_word_or_number(value, exact_key);
@@ -41,34 +45,34 @@ void set_exact_points(SurfaceOptions& options, const OptionValue& value) {
     if (numbers.empty() || numbers.size() > 2)
         throw OptionError(exact_key, "'" + text + "': it is N or N:BASE, whole numbers");
     require_in_range(point_numbers, static_cast<double>(numbers[0]), exact_key);
-    set_base_edges(options, std::span(numbers).subspan(1), exact_key);
+    options.base_edges = base_edges_of(std::span(numbers).subspan(1), exact_key);
     options.exact_points = true;
     options.points = static_cast<std::size_t>(numbers[0]);
 }
 
 std::optional<OptionValue> exact_points_text(const SurfaceOptions& options) {
     if (!options.exact_points || !options.points) return std::nullopt;
-    std::string text = core::to_text(*options.points);
-    if (options.base_edges) text += ":" + core::to_text(*options.base_edges);
-    return text;
+    return core::to_text(*options.points) + base_text(options.base_edges);
 }
 
-void set_side_edges(SurfaceOptions& options, const OptionValue& value) {
-    const std::string text = as_word_or_number(value, sides_key);
-    const std::vector<std::int64_t> numbers = counts_of(text, sides_key);
-    if (numbers.size() < 2 || numbers.size() > 3)
-        throw OptionError(sides_key, "'" + text + "': it is UPPER:LOWER or UPPER:LOWER:BASE, whole numbers");
+/// Reads "[ELEMENT:]UPPER:LOWER[:BASE]". The first of two or three numbers is no name.
+SideEdges parse_side_edges(const std::string& text) {
+    const std::vector<std::int64_t> all = counts_of(text, sides_key);
+    const std::size_t colon = text.find(':');
+    const bool has_name = (all.empty() || all.size() > 3) && colon != std::string::npos && colon > 0;
+    const std::vector<std::int64_t> numbers = has_name ? counts_of(text.substr(colon + 1), sides_key) : all;
+    core::require_text(numbers.size() == 2 || numbers.size() == 3, text,
+                       "it is UPPER:LOWER or ELEMENT:UPPER:LOWER, and :BASE behind, whole numbers");
     for (const std::int64_t number : {numbers[0], numbers[1]})
         require_in_range(side_edge_numbers, static_cast<double>(number), sides_key);
-    set_base_edges(options, std::span(numbers).subspan(2), sides_key);
-    options.side_edges = SideEdges{static_cast<std::size_t>(numbers[0]), static_cast<std::size_t>(numbers[1])};
+    return {static_cast<std::size_t>(numbers[0]), static_cast<std::size_t>(numbers[1]),
+            base_edges_of(std::span(numbers).subspan(2), sides_key),
+            has_name ? text.substr(0, colon) : geometry::every_element};
 }
 
-std::optional<OptionValue> side_edges_text(const SurfaceOptions& options) {
-    if (!options.side_edges) return std::nullopt;
-    std::string text = core::concat(options.side_edges->upper, ":", options.side_edges->lower);
-    if (options.base_edges) text += ":" + core::to_text(*options.base_edges);
-    return text;
+std::string side_edges_text(const SideEdges& sides) {
+    const std::string name = sides.element == geometry::every_element ? "" : sides.element + ":";
+    return name + core::concat(sides.upper, ":", sides.lower) + base_text(sides.base);
 }
 
 /// Reads "ELEMENT[:upper|:lower]:X=SHARE".
@@ -105,12 +109,15 @@ void add_numbers_of_points(OptionTableBuilder<SurfaceOptions>& table) {
               "each vertex, but at sharp corners a fan with the rays of half a turn, max-ray-angle apart",
               point_numbers.text(), set_exact_points, exact_points_text})
         .excludes = {"surface-points"};
-    table
-        .add({"points", OptionKind::word, "UPPER:LOWER[:BASE]",
-              "exactly so many wall edges on both sides of each element, or there is no mesh; BASE edges on the base "
-              "of a blunt trailing edge (one for 50 of the others)",
-              side_edge_numbers.text(), set_side_edges, side_edges_text})
-        .excludes = {"surface-points", "exact-points"};
+    Option<SurfaceOptions>& sides = table.specs(
+        "points", "[ELEMENT:]UPPER:LOWER[:BASE]",
+        "exactly so many wall edges on both sides of each element, or of one, or there is no mesh; BASE edges on the "
+        "base of a blunt trailing edge (one for 50 of the others); may be given several times",
+        parse_side_edges, side_edges_text, member_at(&SurfaceOptions::side_edges));
+    // In a case file an empty list would exclude the others, too.
+    sides.get = [get = sides.get](const SurfaceOptions& o) { return o.side_edges.empty() ? std::nullopt : get(o); };
+    sides.range = side_edge_numbers.text();
+    sides.excludes = {"surface-points", "exact-points"};
 }
 
 }  // namespace
@@ -175,11 +182,11 @@ void validate(const SurfaceOptions& options) {
     if (options.max_spacing < options.min_spacing)
         throw OptionError("spacing_max", core::concat(options.max_spacing, " is below the smallest spacing of ",
                                                       options.min_spacing, ", lengths of the element"));
-    if (options.side_edges && options.points)
+    if (!options.side_edges.empty() && options.points)
         throw OptionError(sides_key, "excludes a number of points of the outline");
     if (options.exact_points && !options.points) throw OptionError(exact_key, "needs a number of points");
-    if ((options.exact_points || options.side_edges) && options.treatment == SurfaceTreatment::keep)
-        throw OptionError(options.side_edges ? sides_key : exact_key,
+    if ((options.exact_points || !options.side_edges.empty()) && options.treatment == SurfaceTreatment::keep)
+        throw OptionError(options.exact_points ? exact_key : sides_key,
                           "needs new points: surface must be auto or resample");
 }
 

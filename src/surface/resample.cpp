@@ -267,13 +267,10 @@ SpacingRule make_spacing_rule(const ResamplingRequest& request, const ChordEnds&
     return rule;
 }
 
-/// Returns the number of edges of bases where the number of points is exact.
-std::size_t base_edges(const SurfaceOptions& options) {
-    constexpr std::size_t points_per_edge = 50;
-    const std::size_t points =
-        options.side_edges ? options.side_edges->upper + options.side_edges->lower : *options.points;
-    const std::size_t share = (points + points_per_edge / 2) / points_per_edge;
-    return options.base_edges.value_or(std::max<std::size_t>(1, share));
+/// Returns the number of edges of a base beside exactly so many other edges.
+std::size_t base_edges(const std::optional<std::size_t>& requested, std::size_t others) {
+    constexpr std::size_t others_per_edge = 50;
+    return requested.value_or(std::max<std::size_t>(1, (others + others_per_edge / 2) / others_per_edge));
 }
 
 /// Gives the curve along the base of an element this number of equal edges.
@@ -371,11 +368,11 @@ std::vector<CurveGroup> whole_outline(const OutlineCurves& curves, const Element
 /// too small.
 DividedCurves divide_into_requested(const OutlineCurves& curves, const Element& given, const SurfaceOptions& options,
                                     const ChordEnds& ends, const SpacingRule& rule, SampledCurves& known) {
-    if (!options.points && !options.side_edges) return divide_curves(curves.curves, rule, known);
-    if (!options.exact_points && options.points) return divide_curves_into(curves.curves, rule, known, *options.points);
-    const std::vector<CurveGroup> groups = options.side_edges ? sides_of(curves, given, ends, *options.side_edges)
-                                                              : whole_outline(curves, given, *options.points);
-    return divide_curves_exactly(curves.curves, rule, known, groups);
+    if (const SideEdges* sides = side_edges_of(options, given))
+        return divide_curves_exactly(curves.curves, rule, known, sides_of(curves, given, ends, *sides));
+    if (!options.points) return divide_curves(curves.curves, rule, known);
+    if (!options.exact_points) return divide_curves_into(curves.curves, rule, known, *options.points);
+    return divide_curves_exactly(curves.curves, rule, known, whole_outline(curves, given, *options.points));
 }
 
 /// Sets the largest spacing at each corner. Beside a kept edge, that edge alone sets it.
@@ -430,6 +427,15 @@ std::vector<GivenEdges> origins_of(const OutlineCurves& outline, const DividedCu
 
 }  // namespace
 
+const SideEdges* side_edges_of(const SurfaceOptions& options, const Element& element) {
+    const SideEdges* found = nullptr;
+    for (const SideEdges& sides : options.side_edges) {
+        const bool gives_way = sides.element == geometry::every_element && found && found->element != sides.element;
+        if (geometry::stands_for(sides.element, element) && !gives_way) found = &sides;
+    }
+    return found;
+}
+
 double ResamplingRequest::max_turning_deg() const { return std::min(options.max_turning_deg, limits.max_turning_deg); }
 
 double ResamplingRequest::corner_spacing(std::size_t element, double turning, double extent, bool is_given) const {
@@ -476,16 +482,20 @@ ResampledElement resample(const Element& given, std::size_t index, const Resampl
         append_curves(stretch, treatment, outline_curves);
     }
     ChordEnds ends = find_chord_ends(given.points);
-    if (options.exact_points || options.side_edges) fix_base(outline_curves, given, base_edges(options));
+    const SideEdges* sides = side_edges_of(options, given);
+    if (sides)
+        fix_base(outline_curves, given, base_edges(sides->base, sides->upper + sides->lower));
+    else if (options.exact_points)
+        fix_base(outline_curves, given, base_edges(options.base_edges, *options.points));
     limit_at_corners(outline_curves, outline, given, index, request, ends);
-    if (options.side_edges) ends.nose = divide_at_leading_edge(outline_curves, given, ends);
+    if (sides) ends.nose = divide_at_leading_edge(outline_curves, given, ends);
     const SpacingRule rule = make_spacing_rule(request, ends, scale, index, given);
 
     const std::vector<OutlineCurve>& curves = outline_curves.curves;
     DividedCurves divided = divide_into_requested(outline_curves, given, options, ends, rule, known);
     // Where lamina decides by itself, it takes no points away from an outline whose number of them matters.
-    const bool decides_alone = options.treatment == SurfaceTreatment::automatic && !options.points &&
-                               !options.side_edges && !options.leading_edge_spacing && !options.trailing_edge_spacing &&
+    const bool decides_alone = options.treatment == SurfaceTreatment::automatic && !options.points && !sides &&
+                               !options.leading_edge_spacing && !options.trailing_edge_spacing &&
                                options.station_spacings.empty();
     if (decides_alone && keeps_number_of_points(given) && divided.points.size() < given.points.size())
         divided = divide_curves_into(curves, rule, known, given.points.size());

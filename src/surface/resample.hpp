@@ -17,6 +17,9 @@ namespace lamina::surface {
 /// Returns the length of an element: the longer side of the tightest box round its outline, which turns with it.
 double extent(std::span<const Point> outline);
 
+/// Returns the exact numbers of edges that the options ask for on the sides of an element, or null.
+const SideEdges* side_edges_of(const SurfaceOptions& options, const Element& element);
+
 /// The requests that the new points of all elements have to meet.
 struct ResamplingRequest {
     const SurfaceOptions& options;

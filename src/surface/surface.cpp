@@ -92,11 +92,13 @@ void restore_crossing(Geometry& geometry, const Geometry& given) {
 
 /// Throws OptionError unless each element has the points whose exact number is asked for.
 void require_exact_points(const Geometry& geometry, const SurfaceOptions& options) {
-    if (!options.exact_points && !options.side_edges) return;
-    for (const Element& e : geometry.elements)
-        if (e.surface_restored || (options.points && e.points.size() != *options.points))
-            throw OptionError(options.side_edges ? "points" : "exact_points",
+    for (const Element& e : geometry.elements) {
+        const bool has_sides = side_edges_of(options, e) != nullptr;
+        if (!has_sides && !options.exact_points) continue;
+        if (e.surface_restored || (options.exact_points && e.points.size() != *options.points))
+            throw OptionError(has_sides ? "points" : "exact_points",
                               fmt::format("element {}: {}", e.name, e.surface_notes.back()));
+    }
 }
 
 /// An element, what becomes of its points, and the edges of the new ones.
@@ -264,6 +266,7 @@ Geometry prepare_within(Geometry given, const SurfaceOptions& options, const Spa
     validate(options);
     for (const StationSpacing& station : options.station_spacings)
         geometry::require_known_element(given, station.element, "spacing_at");
+    for (const SideEdges& sides : options.side_edges) geometry::require_known_element(given, sides.element, "points");
     const SpacingLimits limits = mirrored_limits(given_limits, given);
     for (Element& e : given.elements) e.features.corners = find_corners(e);
     if (options.smooth) {

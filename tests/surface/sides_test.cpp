@@ -18,8 +18,7 @@ namespace {
 
 SurfaceOptions sides(std::size_t upper, std::size_t lower, std::optional<std::size_t> base = {}) {
     SurfaceOptions options;
-    options.side_edges = SideEdges{upper, lower};
-    options.base_edges = base;
+    options.side_edges = {{upper, lower, base}};
     return options;
 }
 
@@ -75,6 +74,41 @@ TEST(Sides, MeetWhereTheLeadingEdgeWasMerged) {
         const auto tail = std::find(e.points.begin(), e.points.end(), e.features.trailing_edge);
         EXPECT_EQ((foremost - tail + 140) % 140, 80);
     }
+}
+
+TEST(Sides, OfEachElementHaveTheirOwnNumbers) {
+    using Edges = std::pair<std::size_t, std::size_t>;
+    const Outline main = naca_airfoil("4412", 100).points, slat = shapes::section(0.12, 0.003, 20);
+    const Geometry given =
+        make_geometry({element_of_points(shapes::moved(slat, 0, 1, {-1.5, 0}), "slat"), element_of_points(main, "main"),
+                       element_of_points(shapes::moved(main, 0, 1, {1.5, 0}), "flap")},
+                      {.names = {"slat", "main", "flap"}});
+    const auto sides_in = [&](const SurfaceOptions& options, std::size_t e) {
+        return edges_of_sides(prepare_surfaces(given, options).elements[e], given.elements[e].points);
+    };
+    SurfaceOptions options;
+    options.side_edges = {{70, 60, 3, "slat"}, {90, 80, 7, "all"}};
+    EXPECT_EQ(sides_in(options, 0), Edges(70, 60)) << "its own numbers count, wherever those of all stand";
+    EXPECT_EQ(prepare_surfaces(given, options).elements[0].points.size(), 133u);
+    EXPECT_EQ(sides_in(options, 1), Edges(90, 80));
+    options.side_edges = {{70, 60, 3, "slat"}};
+    EXPECT_EQ(prepare_surfaces(given, options).elements[1].points, prepare_surfaces(given).elements[1].points);
+    options.side_edges = {{70, 60, 3, "wing"}};
+    EXPECT_THROW(prepare_surfaces(given, options), OptionError);
+}
+
+TEST(Sides, AreReadAndWritten) {
+    const OptionTable<SurfaceOptions>& table = option_table<SurfaceOptions>();
+    const auto points = std::find_if(table.begin(), table.end(), [](const auto& o) { return o.name == "points"; });
+    SurfaceOptions options;
+    const std::vector<std::string> texts{"80:60", "80:60:4", "main:80:60", "main:80:60:4", "2412:80:60:4"};
+    points->set(options, texts);
+    EXPECT_EQ(points->get(options), OptionValue(texts));
+    EXPECT_EQ(options.side_edges[1].base, 4u);
+    EXPECT_EQ(options.side_edges[4].element, "2412");
+    for (const std::string text :
+         {"80", "main:80", "main:80:60:4:2", "0:80", "main:80:0", "80:60:0", ":80:60", "main:80:x", "80.5:60"})
+        EXPECT_THROW(points->set(options, std::vector{text}), UsageError) << text;
 }
 
 TEST(Sides, Refusals) {
