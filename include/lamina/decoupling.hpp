@@ -45,14 +45,14 @@ struct FarFieldOptions {
     FarFieldShape shape = FarFieldShape::box;  ///< which of the other members count
     Length size = 100;                         ///< half-width of the box or radius of the circle
     std::vector<Point> outline{};              ///< corners of the polygon, counter-clockwise, in units of the input
-    /// Height of a wind tunnel: the box is as high as this. Its floor is the ground where there is one, and else the
-    /// configuration is in the middle.
+    /// Height of a wind tunnel. Its floor is the ground where there is one, a line of symmetry is in its middle, and else
+    /// the configuration is.
     std::optional<Length> tunnel{};
     /// Distance of the tunnel's inlet ahead of the configuration; empty: 10 chords or 3 heights, the larger of both, or
     /// what `size` says where it is not the default.
     std::optional<Length> tunnel_upstream{};
     std::optional<Length> tunnel_downstream{};         ///< of its outlet; empty: 15 chords or 4 heights, likewise
-    OuterWallKind tunnel_walls = OuterWallKind::slip;  ///< ceiling, and floor where there is no ground: none moves
+    OuterWallKind tunnel_walls = OuterWallKind::slip;  ///< ceiling, and floor if there is one: none moves
     std::optional<OuterLayers> tunnel_layers{};        ///< on them; empty: as on the bodies
     std::optional<Length> ground{};                    ///< distance of flat ground below the lowest point
     OuterWallKind ground_wall = OuterWallKind::slip;   ///< how the flow meets it

@@ -115,9 +115,9 @@ def mesh(
     far_field_shape: Literal["box", "circle"] | None = None,
     # instead: corners of a convex far field, counter-clockwise, in units of the input
     far_field_outline: str | float | Sequence[float] | None = None,
-    # height of a wind tunnel with the configuration in its middle, or on its ground, and how far it goes on
-    # ahead of the configuration and behind it; else 10 and 15 chords, or 3 and 4 heights, the larger of both,
-    # unless far-field says it
+    # height of a wind tunnel with the configuration or the line of symmetry in its middle, or on its ground,
+    # and how far it goes on ahead of the configuration and behind it; else 10 and 15 chords, or 3 and 4
+    # heights, the larger of both, unless far-field says it
     tunnel: str | float | Sequence[float] | None = None,
     # floor and ceiling of the tunnel [slip]
     tunnel_walls: Literal["slip", "no-slip"] | None = None,

@@ -62,7 +62,7 @@ SolverConditions solver_conditions(const MeshResult& result, const CaseOptions& 
     if (far_field.ground && far_field.ground_wall != OuterWallKind::slip) conditions.outer_walls.push_back("ground");
     if (far_field.ground_wall == OuterWallKind::moving) conditions.moving_walls = conditions.outer_walls;
     if (far_field.tunnel && far_field.tunnel_walls != OuterWallKind::slip) {
-        if (!far_field.ground) conditions.outer_walls.push_back("floor");
+        if (!far_field.ground && !far_field.symmetry) conditions.outer_walls.push_back("floor");
         conditions.outer_walls.push_back("ceiling");
     }
     conditions.axisymmetric = far_field.axisymmetric;

@@ -5,6 +5,7 @@
 #include <lamina/io.hpp>
 
 #include "cases/words.hpp"
+#include "io/formats.hpp"
 #include "io/openfoam_span.hpp"
 
 namespace lamina::cases {
@@ -35,11 +36,12 @@ std::string wall_surfaces(const std::vector<std::string>& walls) {
     return entries;
 }
 
-/// Returns the conditions of patches of symmetry, to stand before another patch.
-std::string symmetry_patches(const std::vector<std::string>& names) {
+/// Returns the conditions of patches of symmetry, to stand before another patch. A wedge has no patch at its axis.
+std::string symmetry_patches(const CaseFlow& flow) {
     std::string patches;
-    for (const std::string& name : names)
-        patches += fmt::format("{}\n    {{\n        type            symmetry;\n    }}\n    ", name);
+    for (const std::string& name : flow.symmetries)
+        if (!flow.axisymmetric || name != io::axis_name)
+            patches += fmt::format("{}\n    {{\n        type            symmetry;\n    }}\n    ", name);
     return patches;
 }
 
@@ -185,7 +187,7 @@ Words openfoam_words(const CaseFlow& flow) {
     words["MOVING_WALLS"] = moving_patches(flow.moving_walls);
     words["FAR_FIELDS"] = fmt::format("{}", fmt::join(flow.far_fields, " "));
     words["WALLS"] = fmt::format("{}", fmt::join(flow.walls, " "));
-    words["SYMMETRIES"] = (flow.axisymmetric ? "" : symmetry_patches(flow.symmetries)) + cyclic_patches(flow.row);
+    words["SYMMETRIES"] = symmetry_patches(flow) + cyclic_patches(flow.row);
     words["ENDS"] = flow.axisymmetric ? "\"(z0|z1)\"" : "frontAndBack";
     words["ENDS_TYPE"] = flow.axisymmetric ? "wedge" : "empty";
     words["VORTEX"] = flow.symmetries.empty() && flow.outer_walls.empty() && !flow.row ? "yes" : "no";

@@ -72,6 +72,8 @@ double least_room(const Box& bodies) { return 0.01 * core::longer_side(bodies); 
 ///           inlet  |     ,=--.__            |  outlet
 ///                  |________________________|
 ///            floor
+///
+/// Of a tunnel with a line of symmetry in its middle the half above is left.
 FarField between_walls(FarField box, const Box& bodies, double chord, const FarFieldOptions& options) {
     const double radius = box.radius;
     double floor = box.center.y - radius, ceiling = box.center.y + radius;
@@ -87,6 +89,7 @@ FarField between_walls(FarField box, const Box& bodies, double chord, const FarF
     }
     if (options.symmetry) {
         floor = *options.symmetry;
+        if (options.tunnel) ceiling = floor + 0.5 * in_units(*options.tunnel, chord);
         box.is_half = true;
     }
     if (!((box.is_half || floor < bodies.lower.y) && bodies.upper.y < ceiling))
@@ -99,7 +102,7 @@ FarField between_walls(FarField box, const Box& bodies, double chord, const FarF
         // What a body does to the flow between walls falls by a factor of 23 over one height, so that nothing of it is
         // left there (e^(-pi x / H)). Wakes are longer.
         constexpr double least_ahead = 10, heights_ahead = 3, least_behind = 15, heights_behind = 4;
-        const double height = ceiling - floor;
+        const double height = in_units(*options.tunnel, chord);
         left = bodies.lower.x - std::max(least_ahead * chord, heights_ahead * height);
         right = bodies.upper.x + std::max(least_behind * chord, heights_behind * height);
     }

@@ -94,8 +94,9 @@ Option<FarFieldOptions>& add_tunnel(OptionTableBuilder<FarFieldOptions>& table) 
     };
     return table.add(
         {"tunnel", OptionKind::word, "H[:UP:DOWN]",
-         "height of a wind tunnel with the configuration in its middle, or on its ground, and how far it goes on "
-         "ahead of the configuration and behind it; else 10 and 15 chords, or 3 and 4 heights, the larger of "
+         "height of a wind tunnel with the configuration or the line of symmetry in its middle, or on its ground, and "
+         "how far it goes on ahead of the configuration and behind it; else 10 and 15 chords, or 3 and 4 heights, the "
+         "larger of "
          "both, unless far-field says it",
          "", set, get});
 }
@@ -117,8 +118,7 @@ void add_row(OptionTableBuilder<FarFieldOptions>& table) {
         return options.stagger_deg == 0 ? pitch : core::concat(pitch, ",", options.stagger_deg);
     };
     const auto none = [](const FarFieldOptions&) -> std::optional<OptionValue> { return std::nullopt; };
-    const std::vector<std::string> other_borders{"far-field-shape", "far-field-outline", "tunnel", "ground",
-                                                 "symmetry"};
+    const std::vector<std::string> other_borders{"far-field-outline", "tunnel", "ground", "symmetry"};
     table
         .add(
             {"periodic", OptionKind::word, "PITCH[,STAGGER]",
@@ -153,7 +153,8 @@ OptionTable<FarFieldOptions> option_rows() {
     };
     table.add({"far-field-outline", OptionKind::word, "X0,Y0,X1,Y1,...",
                "instead: corners of a convex far field, counter-clockwise, in units of the input", "", set, get});
-    const std::vector<std::string> other_shapes{"far-field-shape", "far-field-outline"};
+    // Other shapes than a box do not go with these either; case files may say that it is one.
+    const std::vector<std::string> other_shapes{"far-field-outline"};
     add_tunnel(table).excludes = other_shapes;
     table.choice("tunnel-walls", "floor and ceiling of the tunnel",
                  Choices<OuterWallKind>{{"slip", OuterWallKind::slip}, {"no-slip", OuterWallKind::no_slip}},
@@ -178,7 +179,7 @@ OptionTable<FarFieldOptions> option_rows() {
         .number("symmetry", "Y",
                 "line of symmetry y = Y, in units of the input, that cuts bodies and domain: what is above is kept",
                 numbers_from_to(-1e6, 1e6), member_at(&FarFieldOptions::symmetry))
-        .excludes = {"far-field-shape", "far-field-outline", "tunnel", "ground"};
+        .excludes = {"far-field-outline", "ground"};
     table.flag("axisymmetric", "the line of symmetry, y = 0, is the axis of bodies of revolution", true,
                member_at(&FarFieldOptions::axisymmetric));
     add_row(table);
@@ -213,8 +214,8 @@ void validate(const FarFieldOptions& options) {
                           : options.tunnel ? "tunnel"
                                            : "ground",
                           "needs the far field to be a box");
-    if (options.symmetry && (options.tunnel || options.ground))
-        throw OptionError("symmetry", "is the border below, where no ground or tunnel can be");
+    if (options.symmetry && options.ground)
+        throw OptionError("symmetry", "is the border below, where no ground can be");
     if (options.pitch && (options.shape != FarFieldShape::box || options.tunnel || options.ground || options.symmetry))
         throw OptionError("periodic",
                           "is the border above and below, where no ground, tunnel, line of symmetry or "

@@ -11,6 +11,7 @@
 #include <lamina/error.hpp>
 
 #include "decoupling/far_field.hpp"
+#include "geometry/symmetry.hpp"
 #include "layers/mechanisms.hpp"
 #include "layers/stages.hpp"
 #include "pipeline/derived_options.hpp"
@@ -112,7 +113,7 @@ bool same_points(const Geometry& a, const Geometry& b) {
 std::vector<SizeSource> gaps_above_symmetry(const FittedLayer& fitted, std::span<const std::vector<Point>> fronts) {
     constexpr double edge_over_gap = 0.8;
     std::vector<SizeSource> sources;
-    if (!fitted.far_field.is_half || !fitted.outer_walls.empty()) return sources;
+    if (!geometry::is_cut(fitted.geometry)) return sources;
     for (std::size_t e = 0; e < fitted.geometry.elements.size(); ++e) {
         if (fitted.geometry.elements[e].is_mirrored) continue;
         const std::vector<Point>& front = fronts[e];

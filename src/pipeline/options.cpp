@@ -132,9 +132,13 @@ FlowWalls flow_walls(const Geometry& geometry, const CaseOptions& options) {
     const decoupling::FarField far_field =
         decoupling::place_far_field(bounding_box(geometry), chord, options.far_field);
     FlowWalls walls;
-    // Bodies that a line of symmetry cuts are whole in the geometry, and so make it a streamline themselves.
-    if (std::isfinite(far_field.floor) && !geometry::is_cut(geometry)) walls.below = far_field.floor;
+    if (std::isfinite(far_field.floor)) walls.below = far_field.floor;
     if (std::isfinite(far_field.ceiling)) walls.above = far_field.ceiling;
+    // Bodies that a line of symmetry cuts are whole in the geometry, and so make it a streamline themselves.
+    if (geometry::is_cut(geometry)) {
+        walls.below.reset();
+        if (walls.above) walls.below = 2 * far_field.floor - *walls.above;
+    }
     if (far_field.pitch > 0) walls.pitch = far_field.pitch;
     return walls;
 }

@@ -65,9 +65,9 @@ std::vector<OuterWallFacts> outer_wall_facts(const decoupling::FarField& far_fie
     };
     if (options.ground)
         add("ground", far_field.floor, "ground", options.ground_wall, options.ground_layers, "ground_layers");
-    else if (options.tunnel)
+    else if (options.tunnel && !options.symmetry)
         add("floor", far_field.floor, "tunnel", options.tunnel_walls, options.tunnel_layers, "tunnel_layers");
-    if (options.symmetry && !geometry::is_cut(geometry))
+    else if (options.symmetry && !geometry::is_cut(geometry))
         add(symmetry_name(options), far_field.floor, "symmetry", OuterWallKind::slip, {}, "");
     if (options.tunnel)
         add("ceiling", far_field.ceiling, "tunnel", options.tunnel_walls, options.tunnel_layers, "tunnel_layers");
@@ -97,7 +97,7 @@ const char* symmetry_name(const FarFieldOptions& options) { return options.axisy
 
 namespace {
 
-/// Closes the border of a domain whose line of symmetry cuts bodies:
+/// Closes the border of a domain whose line of symmetry cuts bodies, with the ceiling of a tunnel if there is one:
 ///
 ///      ______________________________________
 ///     |                  ____                |
@@ -111,8 +111,8 @@ void close_half(const layers::Layer& layer, const decoupling::FarField& far_fiel
     const auto [lower_left, lower_right, upper_right, upper_left] = far_field.box().corners();
     const auto x_of = [&](VertexId v) { return layer.points[v.index()].x; };
     std::vector<std::vector<VertexId>> bodies, others;  // from the right to the left
-    for (std::size_t e = 0; e < layer.borders.size(); ++e)
-        (layer.is_open(e) ? bodies : others).push_back(layer.borders[e]);
+    const std::size_t elements = layer.borders.size() - layer.outer_walls;
+    for (std::size_t e = 0; e < elements; ++e) (layer.is_open(e) ? bodies : others).push_back(layer.borders[e]);
     std::sort(bodies.begin(), bodies.end(),
               [&](const auto& a, const auto& b) { return x_of(a.front()) > x_of(b.front()); });
     std::vector<VertexId> loop;
@@ -125,6 +125,10 @@ void close_half(const layers::Layer& layer, const decoupling::FarField& far_fiel
         result.points.push_back(p);
         add_vertex(VertexId(result.points.size() - 1));
     };
+    const auto add_border = [&](const std::vector<VertexId>& border) {
+        add_vertex(border.front());
+        loop.insert(loop.end(), border.begin() + 1, border.end());
+    };
     // Adds the points between the last one and this one.
     const auto divide_up_to = [&](Point end) {
         const Point begin = result.points[loop.back().index()];
@@ -134,15 +138,20 @@ void close_half(const layers::Layer& layer, const decoupling::FarField& far_fiel
     add_point(lower_right);
     for (const std::vector<VertexId>& body : bodies) {
         divide_up_to(layer.points[body.front().index()]);
-        add_vertex(body.front());
-        loop.insert(loop.end(), body.begin() + 1, body.end());
+        add_border(body);
     }
     divide_up_to(lower_left);
     add_point(lower_left);
     edges = &result.far_field;
-    for (const Point corner : {upper_left, upper_right}) {
-        divide_up_to(corner);
-        add_point(corner);
+    if (layer.outer_walls > 0) {
+        const std::vector<VertexId>& ceiling = layer.borders.back();
+        divide_up_to(layer.points[ceiling.front().index()]);
+        add_border(ceiling);
+    } else {
+        for (const Point corner : {upper_left, upper_right}) {
+            divide_up_to(corner);
+            add_point(corner);
+        }
     }
     divide_up_to(lower_right);
     edges->push_back({loop.front(), loop.back()});
@@ -155,10 +164,10 @@ void close_half(const layers::Layer& layer, const decoupling::FarField& far_fiel
 
 RegionBorders close_domain(const layers::Layer& layer, const decoupling::FarField& far_field, const SizeField& size) {
     RegionBorders result{layer.points, layer.borders, layer.edges.sides, {}, {}};
-    if (layer.outer_walls == 0) {
-        if (far_field.is_half) close_half(layer, far_field, size, result);
-        return result;
-    }
+    bool is_cut = false;  // else a line of symmetry is an outer wall itself
+    for (std::size_t e = 0; e < layer.borders.size(); ++e) is_cut |= layer.is_open(e) && !layer.is_outer(e);
+    if (is_cut) close_half(layer, far_field, size, result);
+    if (is_cut || layer.outer_walls == 0) return result;
     const std::span<const std::vector<VertexId>> walls = std::span(layer.borders).last(layer.outer_walls);
     result.borders.resize(layer.borders.size() - walls.size());
     std::vector<VertexId> loop;

@@ -34,6 +34,25 @@ TEST(CaseFile, ADumpReproducesTheRunFromAnyFolder) {
     EXPECT_EQ(here.read("a.su2"), here.read("b.su2"));
 }
 
+TEST(CaseFile, ADumpWithWallsOfTheDomainIsRead) {
+    const TemporaryFolder folder;
+    const std::vector<std::vector<std::string>> domains{
+        {"--ground", "0.1", "--ground-wall", "moving"},
+        {"--tunnel", "3:5:10", "--ground", "0.5"},
+        {"--symmetry", "0", "--tunnel", "3"},
+        {"--periodic", "1,30"},
+        {"--points", "80:60", "--points", "airfoil:90:70:3"},
+    };
+    for (const std::vector<std::string>& domain : domains) {
+        std::vector<std::string> arguments{"mesh", "naca:0012", "--dump-config"};
+        arguments.insert(arguments.end(), domain.begin(), domain.end());
+        const ProgramRun dump = run_lamina(folder, arguments);
+        ASSERT_EQ(dump.exit_code, 0) << dump.err;
+        folder.write("case.toml", dump.out);
+        EXPECT_EQ(run_lamina(folder, {"mesh", "case.toml", "--dump-config"}).out, dump.out) << domain.front();
+    }
+}
+
 TEST(CaseFile, HoldsWakesAndSizeSources) {
     const TemporaryFolder folder;
     const ProgramRun dump =

@@ -125,6 +125,20 @@ TEST(OpenFoamCase, EveryFieldHasEveryPatch) {
               (Names{"T", "U", "alphat", "k", "nut", "omega", "p"}));
 }
 
+// A wedge has no patch at its axis, but one at the ceiling of a tunnel.
+TEST(OpenFoamCase, AWedgeHasNoPatchAtItsAxis) {
+    Mesh mesh = case_mesh();
+    for (const char* name : {"axis", "ceiling"}) {
+        mesh.markers.push_back({name, MarkerKind::symmetry, {mesh.markers[1].edges.back()}});
+        mesh.markers[1].edges.pop_back();
+    }
+    SolverConditions conditions = some_conditions(0);
+    conditions.axisymmetric = true;
+    const auto files = cases::solver_case_files(FlowSolver::openfoam, mesh, conditions, {});
+    EXPECT_EQ(patches_of(text_of(files, "0/U")),
+              (std::vector<std::string>{"wall", "farfield", "ceiling", "\"(z0|z1)\""}));
+}
+
 // OpenFOAM's group of all walls, `wall`, does not exist where a patch has that name.
 TEST(OpenFoamCase, NamesItsWallsOneByOne) {
     Mesh mesh = case_mesh();
