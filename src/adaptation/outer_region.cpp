@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <iterator>
 #include <memory>
 #include <utility>
 
@@ -11,6 +12,7 @@
 
 #include "core/box_tree.hpp"
 #include "core/parallel.hpp"
+#include "decoupling/separators.hpp"
 #include "mesh/adjacency.hpp"
 #include "sizing/requests.hpp"
 
@@ -19,6 +21,9 @@ namespace lamina::adaptation {
 namespace {
 
 using VertexLoop = std::vector<VertexId>;
+
+/// Sine of the angle of a corner that is none.
+constexpr double straight = 1e-9;
 
 /// Returns the edges that part isotropic cells from all else, with the isotropic cell on the left, as loops.
 std::vector<VertexLoop> border_loops_of(const Mesh& mesh, std::span<const char> isotropic) {
@@ -107,7 +112,6 @@ Box box_of(const Mesh& mesh, const VertexLoop& loop) {
 
 /// Returns the corners of a convex loop without those on straight lines, counter-clockwise.
 std::vector<Point> corners_of(const Mesh& mesh, const VertexLoop& loop) {
-    constexpr double straight = 1e-9;  // sine of the angle of a corner that is none
     std::vector<Point> corners;
     const std::size_t n = loop.size();
     for (std::size_t i = 0; i < n; ++i) {
@@ -143,6 +147,81 @@ decoupling::FarField far_field_of(const Mesh& mesh, const VertexLoop& loop) {
     return far_field;
 }
 
+/// Returns the edges of the far field and of lines of symmetry, each with its smaller vertex first; sorted.
+std::vector<Segment> edges_of_sides(const Mesh& mesh) {
+    std::vector<Segment> edges;
+    for (const Marker& marker : mesh.markers)
+        if (marker.kind == MarkerKind::far_field || marker.kind == MarkerKind::symmetry)
+            for (const Segment& e : marker.edges) edges.push_back({std::min(e.a, e.b), std::max(e.a, e.b)});
+    std::sort(edges.begin(), edges.end());
+    return edges;
+}
+
+/// Divides a loop into stretches: sides end at corners, and all other edges that follow each other are one stretch. Nothing
+/// where there are sides alone.
+std::vector<DomainStretch> stretches_of(const Mesh& mesh, VertexLoop loop) {
+    const std::vector<Segment> sides = edges_of_sides(mesh);
+    if (sides.empty()) return {};
+    const std::size_t n = loop.size();
+    const auto is_side = [&](std::size_t i) {
+        const VertexId a = loop[i % n], b = loop[(i + 1) % n];
+        return std::binary_search(sides.begin(), sides.end(), Segment{std::min(a, b), std::max(a, b)});
+    };
+    const auto turns = [&](std::size_t i) {
+        const auto at = [&](std::size_t k) { return mesh.points[loop[k % n].index()]; };
+        return std::abs(cross(unit(at(i) - at(i + n - 1)), unit(at(i + 1) - at(i)))) > straight;
+    };
+    const auto begins = [&](std::size_t i) { return is_side(i) != is_side(i + n - 1) || (is_side(i) && turns(i)); };
+    std::size_t first = 0;
+    while (first < n && is_side(first)) ++first;
+    if (first == n) return {};
+    std::vector<DomainStretch> stretches;
+    for (std::size_t i = first; i < first + n; ++i) {
+        if (i == first || begins(i)) stretches.push_back({{loop[i % n]}, is_side(i)});
+        std::vector<VertexId>& vertices = stretches.back().vertices;
+        if (stretches.back().is_side && vertices.size() == 2) vertices.pop_back();
+        vertices.push_back(loop[(i + 1) % n]);
+    }
+    return stretches;
+}
+
+/// Returns the box of a domain whose border is given: the last one of those between which the decoupling cuts.
+decoupling::FarField given_border_in(const Box& box) {
+    decoupling::FarField far_field;
+    const auto corners = box.corners();
+    far_field.shape = FarFieldShape::outline;
+    far_field.outline.assign(corners.begin(), corners.end());
+    far_field.center = box.center();
+    far_field.radius = 0.5 * box.width();
+    far_field.floor = box.lower.y;
+    far_field.ceiling = box.upper.y;
+    far_field.is_half = true;  // bodies may stand on the border
+    return far_field;
+}
+
+/// Returns the border of the domain with its sides divided by the size field. Their points are added to `points`.
+VertexLoop close_domain(const std::vector<DomainStretch>& domain, const SizeField& size, std::vector<Point>& points) {
+    VertexLoop loop;
+    for (const DomainStretch& stretch : domain) {
+        loop.insert(loop.end(), stretch.vertices.begin(), stretch.vertices.end() - 1);
+        if (!stretch.is_side) continue;
+        const Point a = points[stretch.vertices.front().index()], b = points[stretch.vertices.back().index()];
+        for (const Point p : decoupling::divide_separator(a, b, size)) {
+            loop.push_back(VertexId(points.size()));
+            points.push_back(p);
+        }
+    }
+    return loop;
+}
+
+/// Calls visit(chain, is_closed) for each border that stays: round bodies, and the fronts on the border of the domain.
+template <class Visit>
+void for_each_fixed_border(const OuterRegion& region, Visit visit) {
+    for (const VertexLoop& border : region.borders) visit(border, true);
+    for (const DomainStretch& stretch : region.domain)
+        if (!stretch.is_side) visit(stretch.vertices, false);
+}
+
 }  // namespace
 
 std::vector<char> simple_region(const Mesh& mesh, std::vector<char> isotropic) {
@@ -159,16 +238,27 @@ OuterRegion find_outer_region(const Mesh& mesh, std::span<const char> isotropic)
         return box_of(mesh, a).width() < box_of(mesh, b).width();
     });
     OuterRegion region;
-    region.far_field = far_field_of(mesh, *outermost);
+    std::vector<VertexId> number(mesh.points.size());
+    const auto add = [&](VertexLoop& border) {
+        for (VertexId& v : border) {
+            VertexId& own = number[v.index()];
+            if (!own.valid()) {
+                own = VertexId(region.points.size());
+                region.points.push_back(mesh.points[v.index()]);
+            }
+            v = own;
+        }
+    };
+    region.domain = stretches_of(mesh, {outermost->rbegin(), outermost->rend()});
+    region.far_field =
+        region.domain.empty() ? far_field_of(mesh, *outermost) : given_border_in(box_of(mesh, *outermost));
     loops.erase(outermost);
     for (VertexLoop& loop : loops) {
         std::reverse(loop.begin(), loop.end());
-        VertexLoop& border = region.borders.emplace_back();
-        for (const VertexId v : loop) {
-            border.push_back(VertexId(region.points.size()));
-            region.points.push_back(mesh.points[v.index()]);
-        }
+        add(loop);
+        region.borders.push_back(std::move(loop));
     }
+    for (DomainStretch& stretch : region.domain) add(stretch.vertices);
     std::vector<char> outside(mesh.points.size(), 0);
     const mesh::CellEdges cells(mesh);
     for (std::size_t cell = 0; cell < cells.cells(); ++cell)
@@ -182,10 +272,11 @@ std::size_t count_vertices(const OuterRegion& region, const SizedMesh& sizes) {
     SizingOptions sizing;
     sizing.background = std::make_shared<const SizedMesh>(sizes);
     std::vector<std::vector<Point>> loops;
-    for (const VertexLoop& border : region.borders) {
-        loops.emplace_back();
-        for (const VertexId v : border) loops.back().push_back(region.points[v.index()]);
-    }
+    for_each_fixed_border(region, [&](const VertexLoop& border, bool is_closed) {
+        std::vector<Point>& loop = loops.emplace_back();
+        for (const VertexId v : border) loop.push_back(region.points[v.index()]);
+        if (!is_closed && loop.size() > 2) std::copy(loop.rbegin() + 1, loop.rend() - 1, std::back_inserter(loop));
+    });
     const Box domain = region.far_field.box();
     const sizing::SizeRequests requests = sizing::gather_size_requests(sizing, {}, loops, domain);
     const SizeField field = sizing::make_size_field(loops, requests.sources, sizing, 1, domain);
@@ -193,8 +284,11 @@ std::size_t count_vertices(const OuterRegion& region, const SizedMesh& sizes) {
     Box bodies;
     for (const Point p : region.points) bodies.include(p);
     if (!region.points.empty()) refine_options.unit_length = bodies.width();
+    std::vector<Point> points = region.points;
+    std::vector<VertexLoop> borders = region.borders;
+    if (!region.domain.empty()) borders.push_back(close_domain(region.domain, field, points));
     const decoupling::Decoupling decoupling =
-        decoupling::decouple(region.points, region.borders, field, region.far_field, {}, refine_options);
+        decoupling::decouple(points, borders, field, region.far_field, {}, refine_options);
     std::size_t vertices = region.inside_vertices + decoupling.points.size();
     for (const Refinement& refinement : refine(decoupling.subdomains)) vertices += refinement.steiner_points.size();
     return vertices;
@@ -208,8 +302,12 @@ std::vector<double> sizes_of_borders(const OuterRegion& region, std::span<const 
     std::vector<Segment> edges;
     std::vector<Box> boxes;
     std::vector<double> negative_sizes;
-    for (const VertexLoop& border : region.borders)
-        for (std::size_t i = 0; i < border.size(); ++i) {
+    const Box domain = region.far_field.box();
+    for_each_fixed_border(region, [&](const VertexLoop& border, bool is_closed) {
+        // What leads from one side of the domain to the other, as ground does, the next mesh divides anew.
+        const double x = region.points[border.front().index()].x;
+        if (!is_closed && (x == domain.lower.x || x == domain.upper.x)) return;
+        for (std::size_t i = 0; i + !is_closed < border.size(); ++i) {
             const Segment edge{border[i], border[(i + 1) % border.size()]};
             const Point a = region.points[edge.a.index()], b = region.points[edge.b.index()];
             edges.push_back(edge);
@@ -218,6 +316,7 @@ std::vector<double> sizes_of_borders(const OuterRegion& region, std::span<const 
             boxes.back().include(b);
             negative_sizes.push_back(-margin * distance(a, b) / sizing::frozen_share);
         }
+    });
     std::vector<double> sizes(points.size(), 0.0);
     if (edges.empty()) return sizes;
     const core::BoxTree tree(std::move(boxes));

@@ -167,6 +167,27 @@ TEST(SolutionSizes, UnitsOfFieldsDoNotMatter) {
         ASSERT_NEAR(other.sizes.sizes[i], one.sizes.sizes[i], 1e-3 * one.sizes.sizes[i]);
 }
 
+// The next mesh divides such layers and periodic borders anew, and has more vertices for that: the more the coarser it is.
+TEST(SolutionSizes, LayersOnTheBorderOfTheDomainStay) {
+    CaseOptions coarse = near_options();
+    coarse.sizing.gradation = 0.25;
+    coarse.layer.layers = 8;
+    CaseOptions ground = coarse, half = coarse, row = coarse;
+    ground.far_field.ground = Length{0.2};
+    ground.far_field.ground_wall = OuterWallKind::no_slip;
+    half.far_field.symmetry = 0;
+    row.far_field.pitch = Length{1};
+    for (const CaseOptions& options : {ground, half, row}) {
+        const MeshResult first = generate_mesh(one_section(), options);
+        const double wanted = 1.2 * static_cast<double>(first.mesh.points.size());
+        const SolutionSizes made = solution_sizes(solution_on(first.mesh, {wake}), {.vertices = wanted});
+        EXPECT_NEAR(static_cast<double>(made.vertices), wanted, 0.02 * wanted);
+        const MeshResult next = next_mesh(one_section(), options, made.sizes);
+        EXPECT_GT(static_cast<double>(next.mesh.points.size()), 0.95 * wanted);
+        EXPECT_LT(static_cast<double>(next.mesh.points.size()), 1.3 * wanted);
+    }
+}
+
 TEST(SolutionSizes, RefusesWhatCannotBe) {
     const MeshResult first = generate_mesh(one_section(), near_options());
     const Solution solution = solution_on(first.mesh, {front});
