@@ -52,11 +52,12 @@ struct FlowPoint {
 
 /// The flow along one element. A side runs from the stagnation point to the trailing edge and holds both.
 struct ElementFlow {
-    std::string name;              ///< of the element
-    Point stagnation;              ///< the stagnation point at its nose
-    double lift = 0;               ///< lift coefficient by the pressures, based on FlowConditions::chord
-    std::vector<FlowPoint> upper;  ///< the side that follows the outline backwards, clockwise round the body
-    std::vector<FlowPoint> lower;  ///< the side that follows the outline, counter-clockwise round the body
+    std::string name;                   ///< of the element
+    Point stagnation;                   ///< the stagnation point at its nose
+    std::optional<Point> sharp_nose{};  ///< of a sheet: the tip opposite of its trailing edge, where speeds have a peak
+    double lift = 0;                    ///< lift coefficient by the pressures, based on FlowConditions::chord
+    std::vector<FlowPoint> upper;       ///< the side that follows the outline backwards, clockwise round the body
+    std::vector<FlowPoint> lower;       ///< the side that follows the outline, counter-clockwise round the body
 };
 
 /// Potential flow with boundary layers.

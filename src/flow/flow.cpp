@@ -161,9 +161,10 @@ Flow solve_flow(const Geometry& geometry, const FlowConditions& conditions, cons
     for (std::size_t e = 0; e < flow.elements.size(); ++e) {
         ElementFlow& element = flow.elements[e];
         element.name = geometry.elements[e].name;
+        element.sharp_nose = contours[e].sharp_nose;
         if (!reference.reynolds) continue;
         for (auto* side : {&element.upper, &element.lower})
-            add_boundary_layer(*side, contours[e].sharp_nose, flow.chord / *reference.reynolds, !is_laminar(reference));
+            add_boundary_layer(*side, element.sharp_nose, flow.chord / *reference.reynolds, !is_laminar(reference));
     }
     if (std::optional<Warning> wide; reference.reynolds && (wide = find_wide_wake(flow)))
         flow.warnings.push_back(std::move(*wide));
@@ -184,12 +185,9 @@ double largest_on_walls(const ElementFlow& element, double FlowPoint::*number) {
 }
 
 double largest_skin_friction(const ElementFlow& element) {
-    // Solutions on CRM-HL have 3.8 to 3.9 times the friction of the boundary layer there. With less y+ is 1.1 times the
-    // request at one edge, and layers are not finer than that needs (docs/decisions/0036).
-    constexpr double rise_at_corners = 3.2;
     const FlowPoint &above = element.upper.back(), &below = element.lower.back();
     const double at_corners = above.at == below.at ? 0 : std::max(above.skin_friction, below.skin_friction);
-    return std::max(largest_on_walls(element, &FlowPoint::skin_friction), rise_at_corners * at_corners);
+    return std::max(largest_on_walls(element, &FlowPoint::skin_friction), friction_rise_at_corners * at_corners);
 }
 
 Point flow_velocity(const Flow& flow, Point p) { return SheetVelocity(flow)(p); }

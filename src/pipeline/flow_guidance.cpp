@@ -53,12 +53,15 @@ void add_base_corners(const ElementFlow& flow, std::size_t element, const layers
     for (const Point corner : {above, below}) spacings.push_back({element, corner, corner, spacing});
 }
 
-/// Adds spacings where the pressure changes along a side, but for the peaks at its corners.
-void add_pressure_changes(const std::vector<FlowPoint>& side, std::size_t element, double chord, double fineness,
+/// Adds spacings where the pressure changes along a side, but for the peaks at its corners and at a sharp nose.
+void add_pressure_changes(const std::vector<FlowPoint>& side, const std::optional<Point>& sharp_nose,
+                          std::size_t element, double chord, double fineness,
                           std::vector<geometry::WallSpacing>& spacings) {
-    const std::vector<double> speeds = flow::without_corner_peaks(side, [](const FlowPoint& p) { return p.speed; });
-    const std::vector<double> suction =
-        flow::without_corner_peaks(side, [](const FlowPoint& p) { return -p.pressure_coefficient; });
+    const auto without_peaks = [&](double (*number)(const FlowPoint&)) {
+        return flow::without_corner_peaks(side, number, sharp_nose);
+    };
+    const std::vector<double> speeds = without_peaks([](const FlowPoint& p) { return p.speed; });
+    const std::vector<double> suction = without_peaks([](const FlowPoint& p) { return -p.pressure_coefficient; });
     for (std::size_t i = 1; i < side.size(); ++i) {
         const FlowPoint &a = side[i - 1], &b = side[i];
         const double change = std::abs(suction[i] - suction[i - 1]),
@@ -158,7 +161,7 @@ std::vector<geometry::WallSpacing> spacings_of_flow(const Flow& flow, const laye
         for (std::size_t e = 0; e < flow.elements.size(); ++e) add_base_corners(flow.elements[e], e, growth, spacings);
     for (std::size_t e = 0; e < flow.elements.size(); ++e)
         for (const auto* side : {&flow.elements[e].upper, &flow.elements[e].lower})
-            add_pressure_changes(*side, e, flow.chord, growth.fineness, spacings);
+            add_pressure_changes(*side, flow.elements[e].sharp_nose, e, flow.chord, growth.fineness, spacings);
     return spacings;
 }
 

@@ -154,6 +154,22 @@ TEST(FlowGuidance, RefusesAThicknessBelowTheFirstHeightOfAnyElement) {
     EXPECT_THROW(generate_mesh(geometry, options), OptionError);
 }
 
+// Potential flow turns round the tip of a sheet with a peak that grows without bound as panels get shorter.
+TEST(FlowGuidance, PeaksAtTheTipsOfSheetsAskForNoSpacing) {
+    const Geometry sail = make_geometry({}, {.sheets = {{"sail", {{0, 0}, {0.3, 0.06}, {0.6, 0.07}, {1, 0}}}}});
+    Flow flow = solve_flow(sail, {.alpha_deg = 10, .reynolds = 1e6});
+    ASSERT_EQ(flow.elements[0].sharp_nose, (Point{0, 0}));
+    const auto edges_asked_for = [](const Flow& of) {
+        double edges = 0;
+        for (const geometry::WallSpacing& wall : pipeline::spacings_of_flow(of, {}))
+            if (wall.spacing > 0) edges += distance(wall.a, wall.b) / wall.spacing;
+        return edges;
+    };
+    const double with_nose = edges_asked_for(flow);
+    flow.elements[0].sharp_nose.reset();
+    EXPECT_LT(with_nose, 0.9 * edges_asked_for(flow));
+}
+
 std::vector<SizeSource> sources_of(const std::vector<pipeline::WakeSource>& chain) {
     std::vector<SizeSource> sources;
     for (const pipeline::WakeSource& part : chain) sources.push_back(part.source);
