@@ -21,6 +21,6 @@ struct OpenWake {
 LAMINA_EXPORT std::optional<OpenWake> find_open_wake(const Flow& flow, const ElementFlow& element);
 
 /// Returns WarningCode::flow_separates about the widest of the open wakes, if any. Precondition: the flow has boundary layers.
-std::optional<Warning> find_wide_wake(const Flow& flow);
+LAMINA_EXPORT std::optional<Warning> find_wide_wake(const Flow& flow);
 
 }  // namespace lamina::flow

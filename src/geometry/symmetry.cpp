@@ -166,6 +166,16 @@ Point end_between(const PartPoint& first, const PartPoint& second, double y) {
 
 }  // namespace
 
+Geometry with_images(Geometry geometry) {
+    if (!is_cut(geometry)) return geometry;
+    Geometry images = geometry;
+    std::erase_if(images.elements, [](const Element& element) { return element.is_mirrored; });
+    for (Element& image : images.elements) image.name += "_image";
+    images = transformed(std::move(images), std::vector{Transformation{"all", Mirroring{*geometry.symmetry}}});
+    geometry.elements.insert(geometry.elements.end(), images.elements.begin(), images.elements.end());
+    return geometry;
+}
+
 void mirror_again(Geometry& geometry) {
     const double y = geometry.symmetry.value_or(0);
     for (Element& element : geometry.elements) {

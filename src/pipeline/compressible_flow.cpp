@@ -138,7 +138,11 @@ CompressibleFlow solve_compressible_flow(const Geometry& geometry, const FlowCon
     if (!conditions.mach) throw OptionError("mach", "a compressible flow needs it");
     const ReferenceConditions reference = reference_conditions(conditions, reference_box(geometry));
     Geometry whole = geometry::with_thickness(geometry);
-    for (Element& element : whole.elements) element.parts.clear();  // one marker each
+    whole.symmetry.reset();
+    for (Element& element : whole.elements) {
+        element.is_mirrored = false;  // both halves are in the domain
+        element.parts.clear();        // one marker each
+    }
     const MeshResult made = generate_mesh(whole, options_of_mesh(conditions));
     const EulerMesh mesh = euler_mesh(made);
     // Layers hardly move the shocks of supersonic flow.

@@ -4,13 +4,17 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
+#include <utility>
 #include <variant>
 
 #include <lamina/error.hpp>
 
 #include "flow/corner_peaks.hpp"
 #include "flow/euler/euler.hpp"
+#include "flow/separation.hpp"
 #include "geometry/sheets.hpp"
+#include "geometry/symmetry.hpp"
 #include "pipeline/shock_sizes.hpp"
 
 namespace lamina::pipeline {
@@ -179,9 +183,33 @@ std::vector<FlowSpacing> smallest_spacings(std::span<const geometry::WallSpacing
     return facts;
 }
 
-FlowGuidance guide_by_flow(const Geometry& geometry, const FlowWalls& walls, const FlowConditions& flow_conditions,
+namespace {
+
+/// Leaves out what is known of images of bodies, which are behind the elements of a geometry.
+void leave_out_images(const Geometry& geometry, FlowGuidance& guidance, layers::LayerGrowth& growth) {
+    const std::size_t elements = geometry.elements.size();
+    Flow& flow = *guidance.flow;
+    if (flow.elements.size() == elements) return;
+    flow.elements.resize(elements);
+    std::erase_if(flow.warnings, [](const Warning& w) { return w.code == WarningCode::flow_separates; });
+    if (std::optional<Warning> wide = flow::find_wide_wake(flow)) flow.warnings.push_back(std::move(*wide));
+    const auto is_of_image = [&](const auto& fact) { return fact.element >= elements; };
+    if (!guidance.wakes.empty()) guidance.wakes.resize(elements);
+    if (!growth.first_heights.empty()) growth.first_heights.resize(elements);
+    std::erase_if(growth.least_heights, is_of_image);
+    std::erase_if(guidance.spacings, is_of_image);
+    std::erase_if(guidance.shocks, [&](const FlowShock& shock) {
+        return std::none_of(geometry.elements.begin(), geometry.elements.end(),
+                            [&](const Element& element) { return element.name == shock.element; });
+    });
+}
+
+}  // namespace
+
+FlowGuidance guide_by_flow(const Geometry& given, const FlowWalls& walls, const FlowConditions& flow_conditions,
                            const LayerOptions& options, const ReferenceConditions& conditions,
                            layers::LayerGrowth& growth) {
+    const Geometry geometry = geometry::with_images(given);
     FlowGuidance guidance;
     guidance.flow = solve_flow(geometry, flow_conditions, walls);
     const Flow& flow = *guidance.flow;
@@ -195,11 +223,13 @@ FlowGuidance guide_by_flow(const Geometry& geometry, const FlowWalls& walls, con
         growth.least_heights = heights_with_sheets(flow, geometry);
         if (options.wake_layers) growth.wakes = wake_lines(flow, guidance.wakes, growth.least_heights);
     }
-    if (flow.estimated) return guidance;
-    guidance.spacings = spacings_of_flow(flow, growth);
-    // Shocks are found round the bodies alone.
-    if (!walls.pitch && is_beyond_critical(flow, flow_conditions))
-        add_shocks(geometry, flow_conditions, growth.fineness, guidance);
+    if (!flow.estimated) {
+        guidance.spacings = spacings_of_flow(flow, growth);
+        // Shocks are found round the bodies alone.
+        if (!walls.pitch && is_beyond_critical(flow, flow_conditions))
+            add_shocks(geometry, flow_conditions, growth.fineness, guidance);
+    }
+    leave_out_images(given, guidance, growth);
     return guidance;
 }
 

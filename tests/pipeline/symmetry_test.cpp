@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <lamina/geometry.hpp>
@@ -154,6 +155,81 @@ TEST(Symmetry, ALineBelowAllBodiesIsASlipWall) {
     const MeshResult above_ground = generate_mesh(std::vector<std::string>{"naca:0012"}, options);
     EXPECT_NEAR(static_cast<double>(result.mesh.triangles.size()),
                 static_cast<double>(above_ground.mesh.triangles.size()), 200);
+}
+
+TEST(Symmetry, ATunnelHasTheLineInItsMiddle) {
+    for (const OuterWallKind walls : {OuterWallKind::slip, OuterWallKind::no_slip})
+        for (const double y : {0.0, 0.25}) {
+            SCOPED_TRACE(testing::Message() << "no slip: " << (walls == OuterWallKind::no_slip) << ", line " << y);
+            CaseOptions options = half(y);
+            options.far_field.size = 100;
+            options.far_field.tunnel = Length{3};
+            options.far_field.tunnel_walls = walls;
+            // A circle that the line cuts, and one above it.
+            const MeshResult result = generate_mesh(bodies({arc({0, y}, 0.5), arc({1, y + 0.4}, 0.1)}), options);
+            EXPECT_TRUE(check_mesh(result.mesh).valid());
+            EXPECT_EQ(result.check.edges_without_first_layer, 0u);
+            const double chord = 1.6;
+            for (const Segment& edge : existing_marker(result.mesh, "ceiling").edges)
+                EXPECT_EQ(result.mesh.points[edge.a.index()].y, y + 1.5 * chord);
+            for (const Segment& edge : existing_marker(result.mesh, "symmetry").edges)
+                EXPECT_EQ(result.mesh.points[edge.a.index()].y, y);
+            EXPECT_EQ(result.mesh.markers.size(), 6u) << "two bodies, inlet, outlet, ceiling and line";
+            EXPECT_EQ(result.outer_walls.size(), walls == OuterWallKind::no_slip ? 1u : 0u);
+        }
+    // A line that cuts no body is a slip wall.
+    CaseOptions options = half(-0.5);
+    options.far_field.tunnel = Length{3};
+    const MeshResult result = generate_mesh(std::vector<std::string>{"naca:0012"}, options);
+    EXPECT_TRUE(check_mesh(result.mesh).valid());
+    EXPECT_EQ(existing_marker(result.mesh, "symmetry").kind, MarkerKind::symmetry);
+    EXPECT_EQ(result.mesh.points[existing_marker(result.mesh, "ceiling").edges[0].a.index()].y, 1);
+}
+
+/// Returns the mesh above the line y = 0, and that of the whole configuration, with the flow that decides on both.
+std::pair<MeshResult, MeshResult> half_and_whole(std::vector<std::vector<Point>> above, const CaseOptions& given) {
+    CaseOptions options = given;
+    const MeshResult of_half = generate_mesh(bodies(above), options);
+    const std::size_t n = above.size();
+    for (std::size_t e = 1; e < n; ++e) {
+        std::vector<Point> image(above[e].rbegin(), above[e].rend());
+        for (Point& p : image) p.y = -p.y;
+        above.push_back(std::move(image));
+    }
+    options.far_field.symmetry.reset();
+    options.conditions.chord = of_half.conditions.chord;
+    return {of_half, generate_mesh(bodies(above), options)};
+}
+
+TEST(Symmetry, TheFlowKnowsTheImagesOfAllBodies) {
+    std::vector<Point> wing = naca_airfoil("2412", 120).points;
+    for (Point& p : wing) p = p + Point{0.3, 0.25};
+    CaseOptions options = half();
+    options.layer = {.first_height = YPlus{1}};
+    options.conditions.reynolds = 1e6;
+    options.use_flow = true;
+    options.far_field.size = 100;
+    options.far_field.tunnel = Length{2};
+    const auto [above, whole] = half_and_whole({naca_airfoil("0012", 120).points, wing}, options);
+    ASSERT_EQ(above.flow->elements.size(), 2u);
+    EXPECT_NEAR(above.flow->elements[1].lift, whole.flow->elements[1].lift, 1e-3);
+    EXPECT_LT(std::abs(above.flow->elements[0].lift), 1e-3);
+    ASSERT_EQ(above.first_heights.size(), 2u);
+    for (std::size_t e = 0; e < 2; ++e) EXPECT_NEAR(above.first_heights[e] / whole.first_heights[e], 1, 1e-3);
+    EXPECT_EQ(above.decisions.wakes.size(), 2u);
+}
+
+TEST(Symmetry, HalvesAreFineAtShocks) {
+    CaseOptions options = half();
+    options.layer = {.first_height = YPlus{1}};
+    options.conditions.reynolds = 1e6;
+    options.conditions.mach = 0.85;
+    options.use_flow = true;
+    const MeshResult above = generate_mesh(bodies({naca_airfoil("0012", 120).points}), options);
+    EXPECT_TRUE(above.decisions.knows_shocks);
+    ASSERT_FALSE(above.decisions.shocks.empty());
+    // Euler solutions of the whole section have it at 0.757; without boundary layers it counts 0.04 further forward.
+    EXPECT_NEAR(above.decisions.shocks[0].at.x, 0.717, 0.02);
 }
 
 TEST(Symmetry, TheMeshDependsOnNeitherThreadsNorTheLine) {
