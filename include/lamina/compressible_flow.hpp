@@ -29,7 +29,7 @@ struct CompressibleWallPoint {
     Point at;                         ///< the vertex
     double pressure_coefficient = 0;  ///< based on the free stream's dynamic pressure
     double mach = 0;                  ///< Mach number
-    double momentum = 0;              ///< momentum thickness of the turbulent layer; without one 0, as all below
+    double momentum = 0;              ///< momentum thickness of the turbulent layer; 0 where there is none
     double displacement = 0;          ///< its displacement thickness
     double skin_friction = 0;  ///< wall shear stress over the free stream's dynamic pressure; below 0 if separated
 };
@@ -40,6 +40,8 @@ struct WallShock {
     double position = 0;     ///< the same, as a share of the element's extent in x
     double mach_ahead = 0;   ///< largest Mach number of the wall ahead of it, since the flow became supersonic
     double mach_behind = 0;  ///< smallest one within some hundredths of the extent behind it
+    /// Points from the wall up to where the flow ahead is hardly faster than sound: the Mach number is 1 behind them.
+    std::vector<Point> front{};
 };
 
 /// The flow along one side of an element, from the stagnation point to the trailing edge.
@@ -71,6 +73,7 @@ struct CompressibleFlow {
     std::vector<Point> points;                  ///< vertices of the mesh that it was found on
     std::vector<Triangle> triangles;            ///< triangles of that mesh
     std::vector<double> mach_numbers;           ///< per vertex
+    std::vector<Point> velocities;              ///< per vertex, as multiples of the free stream's speed of sound
     std::vector<double> pressures;              ///< per vertex, as a multiple of the free stream's
     int iterations = 0;                         ///< number of implicit steps
     double residual = 0;                        ///< of the density, over that of the first step

@@ -153,6 +153,9 @@ struct FlowDecisions {
     std::vector<FlowSpacing> spacings;  ///< of each element whose wall was resampled, if the flow asks for any there
     std::vector<FlowShock> shocks;      ///< beyond the critical Mach number
     bool knows_shocks = false;  ///< whether compressible flow before the mesh became steady, and said where they are
+    /// Per element the largest skin friction times the wall's density, both by the free stream, where first heights follow
+    /// from compressible flow; else empty.
+    std::vector<double> frictions{};
 };
 
 /// The layers on a wall of the domain.

@@ -83,7 +83,7 @@ void add_drag(const EulerSolution& solution, CompressibleFlow& found) {
     found.viscous_drag = flow::euler::viscous_drag(solution);
     for (const CompressibleElement& element : found.elements)
         for (const CompressibleSide* side : {&element.upper, &element.lower})
-            for (const WallShock& shock : side->shocks) found.wave_drag += wave_drag(found, *side, shock);
+            for (const WallShock& shock : side->shocks) found.wave_drag += wave_drag(found, shock);
     found.drag = found.viscous_drag + found.wave_drag;
 }
 
@@ -112,8 +112,12 @@ CompressibleFlow flow_of(const MeshResult& made, const EulerMesh& mesh, const Eu
         flow.mach_numbers.push_back(mach_at(solution, v));
         flow.pressures.push_back(1.4 * solution.pressures[v]);
     }
+    flow.velocities = solution.velocities;
     flow.points = made.mesh.points;
     flow.triangles = made.mesh.triangles;
+    for (CompressibleElement& element : flow.elements)
+        for (CompressibleSide* side : {&element.upper, &element.lower})
+            for (WallShock& shock : side->shocks) shock.front = trace_front(flow, *side, shock);
     if (flow.has_layers) add_drag(solution, flow);
     return flow;
 }

@@ -12,6 +12,7 @@
 
 #include "flow/corner_peaks.hpp"
 #include "flow/euler/euler.hpp"
+#include "flow/potential.hpp"
 #include "flow/separation.hpp"
 #include "geometry/sheets.hpp"
 #include "geometry/symmetry.hpp"
@@ -75,16 +76,22 @@ void add_pressure_changes(const std::vector<FlowPoint>& side, const std::optiona
     }
 }
 
-/// Adds what the shocks of compressible flow ask for. Where it is too fast to solve, and where no mesh can be made to solve
-/// it on, they ask for nothing.
-void add_shocks(const Geometry& geometry, const FlowConditions& conditions, double fineness, FlowGuidance& guidance) {
-    if (*conditions.mach > flow::euler::largest_mach) return;
-    ShockSizes sizes;
+/// Returns compressible flow beyond the critical Mach number. None where it is too fast to solve, and where no mesh can be
+/// made to solve it on.
+std::optional<CompressibleFlow> flow_beyond_critical(const Geometry& geometry, const FlowConditions& conditions,
+                                                     const Flow& flow) {
+    if (flow.estimated || !is_beyond_critical(flow, conditions) || *conditions.mach > flow::euler::largest_mach)
+        return {};
     try {
-        sizes = sizes_at_shocks(solve_compressible_flow(geometry, conditions), fineness);
+        return solve_compressible_flow(geometry, conditions);
     } catch (const MeshError&) {
-        return;
+        return {};
     }
+}
+
+/// Adds what the shocks of compressible flow ask for.
+void add_shocks(const CompressibleFlow& flow, double fineness, FlowGuidance& guidance) {
+    ShockSizes sizes = sizes_at_shocks(flow, fineness);
     guidance.spacings.insert(guidance.spacings.end(), sizes.spacings.begin(), sizes.spacings.end());
     guidance.sources = std::move(sizes.sources);
     guidance.shocks = std::move(sizes.shocks);
@@ -140,13 +147,43 @@ std::vector<layers::WallHeight> heights_with_sheets(const Flow& flow, const Geom
     return result;
 }
 
+/// Returns the first heights with which these frictions have a y+.
+std::vector<double> first_heights_for(std::span<const double> frictions, double y_plus, double reynolds, double chord) {
+    std::vector<double> heights;
+    for (const double friction : frictions) heights.push_back(y_plus * chord / (reynolds * std::sqrt(0.5 * friction)));
+    return heights;
+}
+
+/// Returns the skin friction at a point of a wall times its density, both by the free stream of this Mach number.
+double friction_times_density(const CompressibleWallPoint& p, double mach) {
+    constexpr double recovery = 0.89;
+    const double pressure = 1 + 0.7 * mach * mach * p.pressure_coefficient;
+    const double edge_temperature = (1 + 0.2 * mach * mach) / (1 + 0.2 * p.mach * p.mach);
+    return p.skin_friction * pressure / (edge_temperature * (1 + 0.2 * recovery * p.mach * p.mach));
+}
+
 }  // namespace
 
 std::vector<double> first_heights_of_flow(const Flow& flow, double y_plus, double reynolds) {
-    std::vector<double> heights;
-    for (const ElementFlow& element : flow.elements)
-        heights.push_back(y_plus * flow.chord / (reynolds * std::sqrt(0.5 * largest_skin_friction(element))));
-    return heights;
+    std::vector<double> frictions;
+    for (const ElementFlow& element : flow.elements) frictions.push_back(largest_skin_friction(element));
+    return first_heights_for(frictions, y_plus, reynolds, flow.chord);
+}
+
+std::vector<double> wall_frictions(const CompressibleFlow& flow) {
+    std::vector<double> frictions;
+    if (!flow.has_layers) return frictions;
+    for (const CompressibleElement& element : flow.elements) {
+        double& largest = frictions.emplace_back(0);
+        for (const CompressibleSide* side : {&element.upper, &element.lower})
+            for (const CompressibleWallPoint& p : side->points)
+                largest = std::max(largest, friction_times_density(p, flow.mach));
+        const CompressibleWallPoint &above = element.upper.points.back(), &below = element.lower.points.back();
+        if (above.at == below.at) continue;
+        for (const CompressibleWallPoint* corner : {&above, &below})
+            largest = std::max(largest, flow::friction_rise_at_corners * friction_times_density(*corner, flow.mach));
+    }
+    return frictions;
 }
 
 std::vector<layers::WallHeight> heights_of_flow(const Flow& flow) {
@@ -195,6 +232,7 @@ void leave_out_images(const Geometry& geometry, FlowGuidance& guidance, layers::
     if (std::optional<Warning> wide = flow::find_wide_wake(flow)) flow.warnings.push_back(std::move(*wide));
     const auto is_of_image = [&](const auto& fact) { return fact.element >= elements; };
     if (!guidance.wakes.empty()) guidance.wakes.resize(elements);
+    if (!guidance.frictions.empty()) guidance.frictions.resize(elements);
     if (!growth.first_heights.empty()) growth.first_heights.resize(elements);
     std::erase_if(growth.least_heights, is_of_image);
     std::erase_if(guidance.spacings, is_of_image);
@@ -213,22 +251,25 @@ FlowGuidance guide_by_flow(const Geometry& given, const FlowWalls& walls, const 
     FlowGuidance guidance;
     guidance.flow = solve_flow(geometry, flow_conditions, walls);
     const Flow& flow = *guidance.flow;
+    // Shocks are found round the bodies alone.
+    std::optional<CompressibleFlow> compressible;
+    if (!walls.pitch) compressible = flow_beyond_critical(geometry, flow_conditions, flow);
+    if (compressible) guidance.frictions = wall_frictions(*compressible);
     if (!flow.estimated) guidance.wakes = wakes_of_flow(flow, growth.fineness);
     if (options.enabled) {
         if (const auto* y_plus = std::get_if<YPlus>(&options.first_height); y_plus && !flow.estimated)
             growth.first_heights =
-                layers::layer_growth(options, conditions,
-                                     first_heights_of_flow(flow, y_plus->y_plus, *conditions.reynolds))
+                layers::layer_growth(
+                    options, conditions,
+                    guidance.frictions.empty()
+                        ? first_heights_of_flow(flow, y_plus->y_plus, *conditions.reynolds)
+                        : first_heights_for(guidance.frictions, y_plus->y_plus, *conditions.reynolds, flow.chord))
                     .first_heights;
         growth.least_heights = heights_with_sheets(flow, geometry);
         if (options.wake_layers) growth.wakes = wake_lines(flow, guidance.wakes, growth.least_heights);
     }
-    if (!flow.estimated) {
-        guidance.spacings = spacings_of_flow(flow, growth);
-        // Shocks are found round the bodies alone.
-        if (!walls.pitch && is_beyond_critical(flow, flow_conditions))
-            add_shocks(geometry, flow_conditions, growth.fineness, guidance);
-    }
+    if (!flow.estimated) guidance.spacings = spacings_of_flow(flow, growth);
+    if (compressible) add_shocks(*compressible, growth.fineness, guidance);
     leave_out_images(given, guidance, growth);
     return guidance;
 }

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include <lamina/compressible_flow.hpp>
 #include <lamina/flow.hpp>
 #include <lamina/pipeline.hpp>
 
@@ -16,6 +17,11 @@ namespace lamina::pipeline {
 /// Returns, for each element, the first height with which its largest skin friction has this y+. Precondition: the flow
 /// has boundary layers.
 std::vector<double> first_heights_of_flow(const Flow& flow, double y_plus, double reynolds);
+
+/// Returns, for each element, the largest skin friction times the wall's density, both by the free stream. The wall is
+/// adiabatic with a recovery factor of 0.89, the cube root of the Prandtl number. Empty without layers. Source: F. M. White,
+/// Viscous Fluid Flow, 3rd ed. (2006), section 7-1.
+std::vector<double> wall_frictions(const CompressibleFlow& flow);
 
 /// Layers are this many times as thick as the boundary layer, which solvers find up to a fifth thicker. Some of it is
 /// lost where the front is smoothed.
@@ -62,10 +68,12 @@ struct FlowGuidance {
     std::vector<SizeSource> sources;  ///< along shocks
     std::vector<FlowShock> shocks;    ///< beyond the critical Mach number
     bool knows_shocks = false;        ///< FlowDecisions::knows_shocks
+    std::vector<double> frictions;    ///< FlowDecisions::frictions
 };
 
 /// Solves the flow round these bodies between the walls of the domain. Its first heights for the y+ of the options, its least heights and wakes go to `growth`.
-/// Beyond the critical Mach number it solves the compressible flow, too, and makes walls and sizes fine at shocks.
+/// Beyond the critical Mach number it solves the compressible flow, too, takes first heights from its layers if it has any,
+/// and makes walls and sizes fine at shocks.
 FlowGuidance guide_by_flow(const Geometry& geometry, const FlowWalls& walls, const FlowConditions& flow_conditions,
                            const LayerOptions& options, const ReferenceConditions& conditions,
                            layers::LayerGrowth& growth);

@@ -136,6 +136,7 @@ MadeMesh run(const Geometry& whole, CaseOptions options, MeshDriver& driver, Sta
     result.decisions = flow_decisions(growth, guidance.spacings, fitted, options.sizing);
     result.decisions.shocks = std::move(guidance.shocks);
     result.decisions.knows_shocks = guidance.knows_shocks;
+    result.decisions.frictions = std::move(guidance.frictions);
     result.seconds = clock.seconds();
     return made;
 }

@@ -499,7 +499,7 @@ TEST(SolverCaseCommand, WarnsOfSpeedsAndOfFlowThatSeparates) {
         EXPECT_EQ(done.exit_code, 0) << done.err;
         return done.err;
     };
-    EXPECT_NE(run({"case", "su2", "diamond.dat", "--mach", "2", "-o", "a"}).find("Mach number 2"), std::string::npos);
+    EXPECT_EQ(run({"case", "su2", "diamond.dat", "--mach", "2", "-o", "a"}).find("Mach"), std::string::npos);
     EXPECT_NE(run({"case", "su2", "naca:0012", "--mach", "0.7", "-o", "b"}).find("Mach number 0.7"), std::string::npos);
     EXPECT_EQ(run({"case", "su2", "naca:0012", "--alpha", "15", "-o", "c"}).find("Mach"), std::string::npos);
     folder.write("circle.dat", circle_of(120));

@@ -208,6 +208,7 @@ DisplacementLayers::Side DisplacementLayers::make_side(const Element& e, std::sp
         for (std::size_t i = 0; i < along.size(); ++i)
             along[i].displaced =
                 along[i].density * along[i].speed * std::min(plain[i].displacement, largest_shape * plain[i].momentum);
+    for (std::size_t i = 0; i < turbulent; ++i) side.laminar_friction.push_back(plain[i].skin_friction);
     side.picked = {turbulent};
     pick_stations(e, along, first_of_wake, side);
     const Station& first = side.stations.front();
@@ -334,7 +335,9 @@ std::vector<WallLayers> DisplacementLayers::walls() const {
     for (const Element& e : elements_) {
         WallLayers& wall = walls.emplace_back();
         wall.layers.resize(e.sides_end + 1);
-        for (const Side& side : e.sides)
+        for (const Side& side : e.sides) {
+            for (std::size_t i = 0; i < side.laminar_friction.size(); ++i)
+                wall.layers[side.places[i]].friction = side.laminar_friction[i];
             for (std::size_t j = 0; j < side.layers.size(); ++j) {
                 const StationLayer& l = side.layers[j];
                 const std::size_t last = j + 1 < side.layers.size() ? side.picked[j + 1] : side.picked[j] + 1;
@@ -344,6 +347,7 @@ std::vector<WallLayers> DisplacementLayers::walls() const {
                         l.layer.momentum, l.shape,
                         l.friction * l.density * (l.speed / options_.mach) * (l.speed / options_.mach)};
             }
+        }
         if (e.wake_layers.empty()) continue;
         const StationLayer& end = e.wake_layers.back();
         wall.wake_momentum = 2 * end.layer.momentum;

@@ -38,6 +38,7 @@ private:
         std::vector<std::size_t> places;  ///< in the outline, from the stagnation point to the trailing edge
         std::vector<double> s;            ///< arc length of each
         std::vector<std::size_t> picked;  ///< the places that have stations: the first one is the first turbulent one
+        std::vector<double> laminar_friction;  ///< per place before the first turbulent one, as WallLayer::friction
         std::vector<Station> stations;
         std::vector<StationLayer> layers;  ///< per station
     };

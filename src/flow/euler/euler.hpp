@@ -56,10 +56,10 @@ struct EulerOptions {
     double nearly_settled = 0.02;
 };
 
-/// The turbulent layer at one place of a wall. All numbers are 0 where it is laminar.
+/// The layer at one place of a wall.
 struct WallLayer {
-    double momentum = 0;  ///< momentum thickness, in chords
-    double shape = 0;     ///< displacement thickness over momentum thickness
+    double momentum = 0;  ///< momentum thickness, in chords; 0 where the layer is laminar
+    double shape = 0;     ///< displacement thickness over momentum thickness; likewise
     /// Wall shear stress over the free stream's dynamic pressure; negative where the flow is separated.
     double friction = 0;
 };

@@ -66,7 +66,7 @@ std::vector<WallShock> find_shocks(const std::vector<CompressibleWallPoint>& sid
         const double behind = slowest_within(side, k + 1, reach * extent);
         const double jump = fastest_before(side, k, reach * extent) - behind;
         if (fastest > least_mach && jump > least_jump && distance(at, side.back().at) > end * extent)
-            shocks.push_back({at, (at.x - from) / extent, fastest, behind});
+            shocks.push_back({at, (at.x - from) / extent, fastest, behind, {}});
         fastest = 0;
     }
     return shocks;
