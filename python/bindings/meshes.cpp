@@ -89,14 +89,20 @@ SharedMesh read(const std::string& file, const std::string& format) {
 }
 
 /// Writes the mesh, with legal names of markers. Returns the warnings of those that differ from the mesh's own.
-nb::list write(const SharedMesh& mesh, const std::string& file, const std::string& format, bool wall_distance) {
+nb::list write(const SharedMesh& mesh, const std::string& file, const std::string& format, bool wall_distance,
+               double span, std::size_t span_cells, bool span_periodic) {
     std::vector<Marker> markers = (*mesh).markers;
     const std::vector<Warning> warnings = make_marker_names_legal(markers);
     MeshView view = *mesh;
     view.markers = markers;
     {
         const nb::gil_scoped_release unlocked;
-        write_mesh(view, file, {.format = format, .wall_distance = wall_distance});
+        write_mesh(view, file,
+                   {.format = format,
+                    .wall_distance = wall_distance,
+                    .span = span,
+                    .span_cells = span_cells,
+                    .span_periodic = span_periodic});
     }
     return warnings_of(warnings);
 }

@@ -9,13 +9,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from types import MappingProxyType
-from typing import Any, Mapping, NoReturn
+from typing import Any, Literal, Mapping, NoReturn
 
 import numpy as np
 
 from . import _lamina
 from ._arrays import immutable, index_array, points_array
-from ._errors import MeshWarning
+from ._errors import MeshWarning, UsageError
 from ._sections import Sections
 
 #: The kinds of markers, in the order of the C++ enumeration.
@@ -287,15 +287,21 @@ class Mesh:
 
         return morph(self, to, transform, displacements, as_far_as_possible)
 
-    def write(self, path: str | os.PathLike[str], *, format: str = "", wall_distance: bool = False) -> None:
+    def write(self, path: str | os.PathLike[str], *, format: str = "", wall_distance: bool = False, span: float = 0,
+              span_cells: int = 1, span_ends: Literal["symmetry", "periodic"] = "symmetry") -> None:
         """Writes the mesh to a file.
 
         The extension of the file says its format, unless `format` names one of `lamina.formats()`. `wall_distance`
-        adds the distance to the nearest wall as point data, in VTU files. Raises IoError, UsageError for unknown
-        formats, MeshError for a mesh that the format cannot hold. A failure leaves nothing half-written. Names of markers
-        that not every format takes are changed in the file, with a MeshWarning: "0012" to "wall_0012".
+        adds the distance to the nearest wall as point data, in VTU files. With a `span`, a depth in units of the mesh, it
+        becomes one of prisms and hexahedra in space, `span_cells` deep, between planes of symmetry or periodic ones
+        (`span_ends`). Raises IoError, UsageError for unknown formats and those that take no span, MeshError for a mesh
+        that the format cannot hold. A failure leaves nothing half-written. Names of markers that not every format takes
+        are changed in the file, with a MeshWarning: "0012" to "wall_0012".
         """
-        for warning in self._data.write(os.fspath(path), format, wall_distance):
+        if span_ends not in ("symmetry", "periodic"):
+            raise UsageError(f"span_ends: must be 'symmetry' or 'periodic', not {span_ends!r}")
+        for warning in self._data.write(os.fspath(path), format, wall_distance, span, span_cells,
+                                        span_ends == "periodic"):
             warnings.warn(MeshWarning._from(warning), stacklevel=2)
 
     def write_wall_data(self, path: str | os.PathLike[str]) -> None:

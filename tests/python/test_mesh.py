@@ -127,6 +127,20 @@ def test_files(small, suffix, tmp_path):
     assert "su2" in lamina.formats()
 
 
+def test_span(small, tmp_path):
+    cells = len(small)
+    small.write(tmp_path / "case", format="openfoam", span=0.5, span_cells=3, span_ends="periodic")
+    folder = tmp_path / "case" / "constant" / "polyMesh"
+    assert f"nCells:{3 * cells}" in (folder / "owner").read_text()
+    assert "cyclic" in (folder / "boundary").read_text()
+    small.write(tmp_path / "deep.vtu", span=0.5, span_cells=2)
+    assert f'NumberOfPoints="{3 * len(small.points)}"' in (tmp_path / "deep.vtu").read_text(errors="replace")
+    for bad in ({"span": 1}, {"span_cells": 2}, {"span_ends": "wall", "span": 1}, {"span": -1}, {"span": float("nan")}):
+        with pytest.raises(lamina.UsageError):
+            small.write(tmp_path / "mesh.su2", **bad)
+    assert not (tmp_path / "mesh.su2").exists()
+
+
 def test_wall_data(small, tmp_path):
     small.write_wall_data(tmp_path / "wall.csv")
     rows = np.genfromtxt(tmp_path / "wall.csv", delimiter=",", skip_header=1)
