@@ -188,6 +188,36 @@ void mark_corners(const Mesh& mesh, WallFlow& wall) {
     }
 }
 
+/// Returns the thicknesses above an edge and up to three edges to both sides, as far as no corner lies between.
+std::vector<double> thicknesses_near(const WallFlow& wall, std::size_t edge) {
+    const std::size_t n = wall.size(), reach = std::min<std::size_t>(3, (n - 1) / 2);
+    std::vector<double> near{wall[edge].thickness};
+    for (const std::size_t step : {std::size_t{1}, n - 1}) {
+        std::size_t at = edge;
+        for (std::size_t k = 0; k < reach; ++k) {
+            const std::size_t beside = (at + step) % n;
+            if (wall[at].at_corner && wall[beside].at_corner) break;
+            at = beside;
+            near.push_back(wall[at].thickness);
+        }
+    }
+    return near;
+}
+
+/// Gives each edge the running median of the thicknesses. Vorticity that errors of the solution make outside of the layer
+/// hides the end of it above single edges, which then is found at a hundred times the distance, or not at all. Source:
+/// J. W. Tukey, Exploratory Data Analysis (1977), chapter 7.
+void smooth_thicknesses(WallFlow& wall) {
+    std::vector<double> medians;
+    for (std::size_t i = 0; i < wall.size(); ++i) {
+        std::vector<double> near = thicknesses_near(wall, i);
+        const auto middle = near.begin() + static_cast<std::ptrdiff_t>(near.size() / 2);
+        std::nth_element(near.begin(), middle, near.end());
+        medians.push_back(*middle);
+    }
+    for (std::size_t i = 0; i < wall.size(); ++i) wall[i].thickness = medians[i];
+}
+
 }  // namespace
 
 std::vector<WallFlow> find_wall_flow(const Solution& solution, const WallFlowOptions& options) {
@@ -217,6 +247,7 @@ std::vector<WallFlow> find_wall_flow(const Solution& solution, const WallFlowOpt
                 walk.measure(of_cells[i], options.viscosity, reach * length, wall[i]);
         });
         mark_corners(mesh, wall);
+        smooth_thicknesses(wall);
     }
     if (walls.empty()) throw OptionError("solution", "has a mesh without walls");
     return walls;
