@@ -31,6 +31,14 @@ std::vector<double> random_numbers(std::size_t n, int max_exponent, std::mt19937
     return numbers;
 }
 
+TEST(ExactSum, OfPartsKnowsWhatIsNotFinite) {
+    ExactSum part, sum;
+    part.add(std::numeric_limits<double>::infinity());
+    sum.add(1);
+    sum.add(part);
+    EXPECT_EQ(sum.value(), std::numeric_limits<double>::infinity());
+}
+
 TEST(ExactSum, OfOneNumberIsThatNumber) {
     std::mt19937 random(1);
     std::vector<double> numbers = random_numbers(2000, 1020, random);

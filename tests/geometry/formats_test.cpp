@@ -11,6 +11,7 @@
 #include <lamina/error.hpp>
 #include <lamina/geometry.hpp>
 
+#include "geometry/length_units.hpp"
 #include "geometry/parse_airfoil.hpp"
 #include "support/geometry_fixtures.hpp"
 
@@ -100,6 +101,20 @@ TEST(Formats, Units) {
     GeometryOptions options;
     options.transformations = {parse_transformation("all:scale:0.001")};
     EXPECT_EQ(of_text(lines_of(fixtures::loop, row), options).elements[0].unit, "");
+}
+
+TEST(Formats, UnitsAreAsLongAsTheyAre) {
+    for (const auto& [text, metres] : {std::pair{"um", 1e-6},
+                                       {"mm", 1e-3},
+                                       {"CM", 1e-2},
+                                       {"meter", 1.0},
+                                       {"in", 0.0254},
+                                       {"inches", 0.0254},
+                                       {"ft", 0.3048}}) {
+        const auto unit = geometry::length_unit(text);
+        ASSERT_TRUE(unit) << text;
+        EXPECT_EQ(unit->metres, metres) << text;
+    }
 }
 
 TEST(Formats, CamberAndChordLinesAreLeftOut) {

@@ -12,6 +12,7 @@
 #include "core/segments.hpp"
 #include "support/shapes.hpp"
 #include "surface/clearance.hpp"
+#include "surface/crossings.hpp"
 
 namespace lamina {
 namespace {
@@ -32,6 +33,20 @@ double clearance_by_all_edges(const Geometry& geometry, std::size_t element, Poi
             }
         }
     return nearest;
+}
+
+// The second edge folds back on the first one, and meets no other; the third one begins on the first one.
+TEST(CrossingEdges, MayFoldBackOnTheNextOne) {
+    Geometry folded = shapes::geometry({{{0, 0}, {4, 0}, {1, 0}, {1, 2}}});
+    for (std::size_t turned = 0; turned < 4; ++turned) {  // also across the end of the list
+        std::vector<Point>& p = folded.elements[0].points;
+        std::vector<std::size_t> found;
+        for (const surface::CrossingEdge& edge : surface::find_crossing_edges(folded)) found.push_back(edge.index);
+        std::vector<std::size_t> expected{(4 - turned) % 4, (5 - turned) % 4, (6 - turned) % 4};
+        std::sort(expected.begin(), expected.end());
+        EXPECT_EQ(found, expected);
+        std::rotate(p.begin(), p.begin() + 1, p.end());
+    }
 }
 
 TEST(Clearance, IsThatOfTheNearestWallThatFaces) {

@@ -63,6 +63,24 @@ TEST(Summary, FindsTheTrailingEdge) {
     }
     EXPECT_EQ(trailing_edge(shapes::circle(1, 60)), (Point{1, 0}));
     EXPECT_EQ(trailing_edge(shapes::diamond()), (Point{1, 0}));
+    // Of equally rearmost vertices of a smooth outline it is the lowest.
+    EXPECT_EQ(trailing_edge({{1, -0.2},
+                             {1, 0.2},
+                             {0.9, 0.6},
+                             {0.6, 0.9},
+                             {0.2, 1},
+                             {-0.2, 1},
+                             {-0.6, 0.9},
+                             {-0.9, 0.6},
+                             {-1, 0.2},
+                             {-1, -0.2},
+                             {-0.9, -0.6},
+                             {-0.6, -0.9},
+                             {-0.2, -1},
+                             {0.2, -1},
+                             {0.6, -0.9},
+                             {0.9, -0.6}}),
+              (Point{1, -0.2}));
     // Sharp and blunt flaps are deflected and scaled.
     for (double base : {0.0, 0.01})
         for (double angle : {-1.0, -0.6, 0.3, 0.9}) {
