@@ -5,6 +5,7 @@
 #include <string>
 
 #include <lamina/error.hpp>
+#include <lamina/files.hpp>
 #include <lamina/io.hpp>
 
 #include "support/sample_meshes.hpp"
@@ -61,6 +62,23 @@ TEST(Fluent, WritesTheGoldenFile) {
     const TemporaryFolder folder;
     write_mesh(tiny(), folder / "m.cas");
     EXPECT_EQ(folder.read("m.cas"), tiny_fluent);
+}
+
+TEST(Fluent, BinaryFilesMayEndNowhere) {
+    const TemporaryFolder folder;
+    write_mesh(tiny(), folder / "m.cas", {.format = "fluent-binary"});
+    const std::string whole = folder.read("m.cas");
+    bool in_list = false;
+    for (std::size_t n = 0; n < whole.size(); ++n) {
+        write_file(folder / "cut.cas", whole.substr(0, n));
+        try {
+            const Mesh mesh = read_mesh(folder / "cut.cas");  // names of markers alone are missing
+            EXPECT_EQ(mesh.points, tiny().points) << n;
+        } catch (const InputError& error) {
+            in_list |= std::string(error.what()).find("ends within a list") != std::string::npos;
+        }
+    }
+    EXPECT_TRUE(in_list);
 }
 
 TEST(Fluent, BinaryFilesHoldThePointsBitForBit) {

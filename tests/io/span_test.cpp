@@ -225,6 +225,7 @@ TEST(Span, IsRefusedWhereItCannotBe) {
     EXPECT_THROW(write_mesh(mesh, folder / "m.vtu", {.span = 1, .span_cells = 0}), UsageError);
     EXPECT_THROW(write_mesh(mesh, folder / "m.vtu", {.span = 1, .span_cells = 100'000'000}), UsageError);
     EXPECT_THROW(open_mesh_sink(folder / "m.vtu", {.span = 1}), UsageError);
+    EXPECT_THROW(check_writable(folder / "m.vtu", {.span = -1}), UsageError);  // before the mesh is made
     EXPECT_TRUE(folder.names().empty());
 }
 

@@ -78,6 +78,13 @@ TEST(StoredMesh, CanBeChanged) {
     EXPECT_EQ(check_mesh(stored.view()).isotropic.cells, 0u);
 }
 
+TEST(MeshSink, RefusesNamesThatTheFormatDoesNotTake) {
+    const test::TemporaryFolder folder;
+    const std::vector<Marker> markers{{"none", MarkerKind::wall, {}}};
+    EXPECT_ANY_THROW(open_mesh_sink(folder / "m.su2", {})->finish({}, markers, {}));
+    EXPECT_NO_THROW(open_mesh_sink(folder / "m.vtu", {})->finish({}, markers, {}));
+}
+
 TEST(StoredMesh, RefusesDamagedFilesWithTheSameMessage) {
     const test::TemporaryFolder folder;
     for (const std::string name : {"m.su2", "m.vtu"}) {
