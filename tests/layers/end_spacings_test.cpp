@@ -223,7 +223,7 @@ SoundColumns fit_random_columns(LayerTopology topology, double steepest) {
         return std::uniform_real_distribution<double>(low, high)(random);
     };
     SoundColumns sound;
-    for (int round = 0; round < 5000; ++round) {
+    for (int round = 0; round < 1500; ++round) {
         std::vector<double> widths;
         double width = 1e-3;
         for (std::size_t i = 0; i < 30; ++i) widths.push_back(width *= std::exp(real(-1.2, 1.2)));
@@ -263,7 +263,7 @@ TEST(EndSpacings, CrossesNoCells) {
     const SoundColumns of_triangles = fit_random_columns(LayerTopology::layered, 0.25);
     const SoundColumns of_steep_triangles = fit_random_columns(LayerTopology::layered, 6);
     for (const SoundColumns* sound : {&of_quads, &of_triangles, &of_steep_triangles})
-        EXPECT_GT(sound->changed, 10'000u);
+        EXPECT_GT(sound->changed, 3'000u);
 }
 
 }  // namespace

@@ -177,7 +177,7 @@ TEST(SharpCorners, OfRandomOutlines) {
         return std::uniform_real_distribution<double>(low, high)(random);
     };
     std::size_t corners = 0, clefts = 0;
-    for (int round = 0; round < 60; ++round) {
+    for (int round = 0; round < 24; ++round) {
         SCOPED_TRACE(round);
         const Outline outline = saw_blade(random);
         LayerOptions options = test::layers_of(std::exp(real(-10, -4)), real(1.05, 1.4), 20);
@@ -189,8 +189,8 @@ TEST(SharpCorners, OfRandomOutlines) {
         for (const LayerTopology topology : test::topologies)
             test::expect_cover(layer, layer.edges, fill_layer(layer, topology));
     }
-    EXPECT_GT(corners, 50u);
-    EXPECT_GT(clefts, 20u);
+    EXPECT_GT(corners, 20u);
+    EXPECT_GT(clefts, 8u);
 }
 
 /// A cleft of ice whose sides turn away from it next to the corner. Without a ray at the corner, those beside it stand on

@@ -219,7 +219,7 @@ TEST(UnitOfTheInput, OtherFactorsKeepNearlyAllMeshes) {
 
 TEST(UnitOfTheInput, OtherFactorsKeepNearlyAllThatTheFlowDecides) {
     FactorCount count;
-    for (const std::string digits : {"0009", "0012", "0018", "2409", "2412", "2418", "4409", "4412", "4418"})
+    for (const std::string digits : {"0009", "0018", "2412", "4409", "4418"})
         for (const TrailingEdge tail : {TrailingEdge::sharp, TrailingEdge::blunt})
             count.add({digits, {naca(digits, 80, tail)}, options_from_flow()});
     EXPECT_GE(count.same, 0.9 * count.all);
