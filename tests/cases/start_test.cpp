@@ -56,10 +56,25 @@ void write_foam_solution(const std::filesystem::path& folder, const std::string&
     write("nut", "Scalar", n);
 }
 
+/// Exchanges the numbers of two cells in a case, as renumberMesh does with all of them.
+void exchange_cells(const std::filesystem::path& folder, const std::string& one, const std::string& other) {
+    for (const char* name : {"owner", "neighbour"}) {
+        std::istringstream in(read_file(folder / "constant/polyMesh" / name));
+        std::string text;
+        bool in_list = false;
+        for (std::string line; std::getline(in, line);) {
+            in_list = line == "(" || (in_list && line != ")");
+            text += (!in_list ? line : line == one ? other : line == other ? one : line) + "\n";
+        }
+        write_file(folder / "constant/polyMesh" / name, text);
+    }
+}
+
 TEST(StartOfACase, OpenFoamsFieldsAreReplaced) {
     const TemporaryFolder folder;
     write_solver_case(FlowSolver::openfoam, case_mesh(), some_conditions(), folder / "solved");
     write_solver_case(FlowSolver::openfoam, case_mesh(), some_conditions(), folder / "next");
+    exchange_cells(folder / "next", "3", "40");
     EXPECT_THROW(start_case_from(FlowSolver::openfoam, folder / "solved", folder / "next", 1.5), Error);
     write_foam_solution(folder / "solved", "0.25");
     start_case_from(FlowSolver::openfoam, folder / "solved", folder / "next", 1.5);

@@ -10,6 +10,7 @@
 #include <lamina/option.hpp>
 #include <lamina/plot.hpp>
 
+#include "plot/color_scale.hpp"
 #include "support/sample_meshes.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -19,6 +20,16 @@ namespace {
 using test::annulus;
 using test::box_with_hole;
 using test::TemporaryFolder;
+
+TEST(ColorScale, OfSizesIsThatOfSidesOfSquares) {
+    Mesh mesh;
+    mesh.points = {{0, 0}, {20, 0}, {20, 10}, {0, 10}, {0, 0.02}};
+    mesh.triangles = {{{VertexId{0u}, VertexId{1u}, VertexId{2u}}}, {{VertexId{0u}, VertexId{1u}, VertexId{4u}}}};
+    const plot::CellColors colors =
+        plot::color_cells(mesh, plot::visible_cells(mesh, {{-1, -1}, {21, 11}}), PlotColor::size);
+    EXPECT_NEAR(colors.low, 0.5 * std::log10(0.2), 1e-12);
+    EXPECT_NEAR(colors.high, 1, 1e-12);
+}
 
 /// Returns the width and the height that the header of a PNG file gives.
 std::pair<unsigned, unsigned> png_size(const std::string& png) {
