@@ -59,7 +59,8 @@ const std::string& boot() {
         std::string text;
         std::ifstream("/proc/sys/kernel/random/boot_id") >> text;
         text.resize(std::min(text.size(), boot_digits));
-        const bool known = text.size() == boot_digits && text.find_first_not_of("0123456789abcdef") == std::string::npos;
+        const bool known =
+            text.size() == boot_digits && text.find_first_not_of("0123456789abcdef") == std::string::npos;
         return known ? text : std::string(no_boot);
     }();
     return identity;

@@ -122,7 +122,8 @@ Mesh joined_copies(const Mesh& mesh, std::size_t copies) {
     for (std::size_t i = 0; i < kept.size(); ++i) {
         if (kept[i] != i) continue;
         numbers[i] = VertexId(all.points.size());
-        const double steps = static_cast<double>(i / n) - static_cast<double>((copies - 1) / 2);
+        const std::size_t copy = i / n, middle = (copies - 1) / 2;
+        const double steps = static_cast<double>(copy) - static_cast<double>(middle);
         all.points.push_back(mesh.points[i % n] + steps * pair->translation);
     }
     const auto number = [&](std::size_t copy, VertexId v) { return numbers[kept[copy * n + v.index()]]; };
