@@ -286,6 +286,7 @@ using namespace cases;
 const std::vector<std::pair<std::string, FlowSolver>>& flow_solvers() {
     static const std::vector<std::pair<std::string, FlowSolver>> names = [] {
         std::vector<std::pair<std::string, FlowSolver>> list;
+        list.reserve(std::size(solver_entries));
         for (const SolverEntry& entry : solver_entries) list.emplace_back(entry.name, entry.solver);
         return list;
     }();

@@ -158,6 +158,7 @@ template <class Search>
 void cut_dealt(Lines& lines, std::vector<Part> parts, unsigned processes, Bisection& bisection, Search&& search) {
     for (SearchDealer dealer(processes); !parts.empty();) {
         std::vector<unsigned> dealt;
+        dealt.reserve(parts.size());
         for (const Part& part : parts) dealt.push_back(dealer.deal(part.border.vertices(), part.process));
         std::vector<SearchResult> results = search(parts, dealt);
         parts = bisection.cut(lines, std::move(parts), results);
@@ -369,7 +370,7 @@ private:
                 SearchResult result;
                 result.separator = results.separator();
                 result.process = process;
-                bisection.cut_in_two(lines, others_.border(i, lines), own != nullptr ? *own : result, parts);
+                Bisection::cut_in_two(lines, others_.border(i, lines), own != nullptr ? *own : result, parts);
                 continue;
             }
             EstimatedBorder& whole = bisection.add_done(others_.whole(i));

@@ -155,7 +155,7 @@ BorderHalves split(const LineBorder& border, std::size_t from, std::size_t to, c
     append_part(border.loops.front(), to, from, first);
     second.add(reversed(line));
     append_part(border.loops.front(), from, to, second);
-    assert(first.vertices + second.vertices == border.vertices() + 2 * line.segments());
+    assert(first.vertices + second.vertices == border.vertices() + std::size_t{2} * line.segments());
     const bool first_may_dangle = border.may_dangle && runs_both_ways(first);
     const bool second_may_dangle = border.may_dangle && runs_both_ways(second);
     return {{{std::move(first)}, first_may_dangle}, {{std::move(second)}, second_may_dangle}};
@@ -172,7 +172,7 @@ LineBorder join(const LineBorder& border, LoopVertex from, LoopVertex to, const 
     result.may_dangle = true;
     result.loops[std::min(from.loop, to.loop)] = std::move(joined);
     result.loops.erase(result.loops.begin() + static_cast<std::ptrdiff_t>(std::max(from.loop, to.loop)));
-    assert(result.vertices() == border.vertices() + 2 * line.segments());
+    assert(result.vertices() == border.vertices() + std::size_t{2} * line.segments());
     return result;
 }
 

@@ -174,6 +174,7 @@ void number_together(Lines& lines, std::span<const LineRun> runs, const SizeFiel
     const std::vector<std::string> told = ranks.all_gather(packer.take());
     require_same_hashes(told, sizeof(LinesHash));
     std::vector<core::DifferenceUnpacker> unpackers;
+    unpackers.reserve(told.size());
     for (const std::string& text : told) unpackers.emplace_back(std::string_view(text).substr(sizeof(LinesHash)));
     for (const LineRun& run : runs) {
         core::DifferenceUnpacker unpacker = unpackers[run.process];
