@@ -42,8 +42,10 @@ OWNERS = {name: "core" for name in ("angle_bounds", "conditions", "error", "expo
 OWNERS["transformation"] = "geometry"
 OWNERS["compressible_flow"] = "flow"
 OWNERS["solution"] = "io"
+OWNERS["metric"] = "io"
 OWNERS["solution_sizes"] = "adaptation"
 OWNERS["transfer"] = "adaptation"
+OWNERS["remesh"] = "remeshing"
 OWNERS["triangle_files"] = "io"
 for name in "delaunay_connectivity delaunay_input delaunay_queries dynamic_triangulation triangulation voronoi".split():
     OWNERS[name] = "delaunay"
@@ -59,7 +61,8 @@ OWNERS["solver_case"] = "cases"
 # The colours of docs/images/stages.dot.
 COLOURS = {"geometry": "#cfe3f7", "surface": "#d8ecd0", "layers": "#fbe3c0", "sizing": "#f3d3e2",
            "decoupling": "#e0d8f0", "pipeline": "#e8e8e8", "mesh": "#d4efef", "io": "#f4efc4", "plot": "#f0dccf",
-           "adaptation": "#dfe7c8", "morphing": "#e6dccb", "cases": "#dfe8cf", "page": "#f0dccf"}
+           "adaptation": "#dfe7c8", "morphing": "#e6dccb", "remeshing": "#dfe7c8",
+           "cases": "#dfe8cf", "page": "#f0dccf"}
 
 def dependencies():
     """Returns the set of folders that each folder may include: its DEPENDS list, and those of the folders in it."""

@@ -1,0 +1,164 @@
+#include "remeshing/metric_mesh.hpp"
+
+#include <cassert>
+
+namespace lamina::remeshing {
+
+std::uint32_t MetricMesh::new_triangle() {
+    if (unused_.empty()) {
+        triangles.emplace_back();
+        return static_cast<std::uint32_t>(triangles.size() - 1);
+    }
+    const std::uint32_t t = unused_.back();
+    unused_.pop_back();
+    return t;
+}
+
+void MetricMesh::renew(std::uint32_t t) {
+    MeshTriangle& triangle = triangles[t];
+    MeshVertex &a = vertices[triangle.v[0]], &b = vertices[triangle.v[1]], &c = vertices[triangle.v[2]];
+    assert(turns_left(a.at, b.at, c.at));
+    triangle.distortion = static_cast<float>(distortion(a, b, c));
+    triangle.is_settled = a.is_settled = b.is_settled = c.is_settled = false;
+}
+
+bool MetricMesh::collect_ring(std::uint32_t v, Ring& ring) const {
+    ring.clear();
+    std::uint32_t t = vertices[v].triangle;
+    const auto corner_in = [&](std::uint32_t triangle) {
+        const auto& corners = triangles[triangle].v;
+        return corners[0] == v ? 0u : corners[1] == v ? 1u : 2u;
+    };
+    unsigned i = corner_in(t);
+    if (vertices[v].freedom != Freedom::free) {
+        // Clockwise to the border: across the edge from the vertex to corner i + 1, which is opposite corner i + 2.
+        for (EdgeHandle behind = triangles[t].n[before(i)]; !is_border(behind); behind = triangles[t].n[before(i)]) {
+            t = triangle_of(behind);
+            i = corner_in(t);
+        }
+    }
+    const std::uint32_t first = t;
+    do {
+        if (!ring.add(t, i)) return false;
+        const EdgeHandle behind = triangles[t].n[after(i)];
+        if (is_border(behind)) break;
+        t = triangle_of(behind);
+        i = after(edge_of(behind));
+    } while (t != first);
+    return true;
+}
+
+std::uint32_t MetricMesh::divide(EdgeHandle h, const MeshVertex& vertex) {
+    //        a                  a
+    //      / t \              / | \          The handles of a-b and of d-c stay; edges of t and u that lead to c and b
+    //    b ----- c    ->    b - p - c        pass to the new triangles.
+    //      \ u /              \ | /
+    //        d                  d
+    const std::uint32_t t = triangle_of(h);
+    const unsigned e = edge_of(h);
+    const std::uint32_t a = triangles[t].v[e], b = triangles[t].v[after(e)], c = triangles[t].v[before(e)];
+    const EdgeHandle behind = triangles[t].n[e];
+    const Point p = vertex.at;
+    if (!turns_left(point(a), point(b), p) || !turns_left(point(a), p, point(c))) return no_index;
+    const auto v = static_cast<std::uint32_t>(vertices.size());
+    if (is_border(behind)) {
+        vertices.push_back(vertex);
+        const std::uint32_t t2 = new_triangle();
+        const EdgeHandle to_ca = triangles[t].n[after(e)], to_ab = triangles[t].n[before(e)];
+        set_corners(t, a, b, v);
+        set_corners(t2, a, v, c);
+        link(t, 0, behind);
+        link(t, 1, edge_handle(t2, 2));
+        link(t, 2, to_ab);
+        link(t2, 0, behind);
+        link(t2, 1, to_ca);
+        renew(t);
+        renew(t2);
+        return v;
+    }
+    const std::uint32_t u = triangle_of(behind);
+    const unsigned f = edge_of(behind);
+    const std::uint32_t d = triangles[u].v[f];
+    if (!turns_left(point(d), point(c), p) || !turns_left(point(d), p, point(b))) return no_index;
+    vertices.push_back(vertex);
+    const std::uint32_t t2 = new_triangle(), u2 = new_triangle();
+    const EdgeHandle to_ca = triangles[t].n[after(e)], to_ab = triangles[t].n[before(e)];
+    const EdgeHandle to_bd = triangles[u].n[after(f)], to_dc = triangles[u].n[before(f)];
+    set_corners(t2, a, v, c);
+    set_corners(u2, d, v, b);
+    set_corners(t, a, b, v);
+    set_corners(u, d, c, v);
+    link(t, 0, edge_handle(u2, 0));
+    link(t, 1, edge_handle(t2, 2));
+    link(t, 2, to_ab);
+    link(t2, 0, edge_handle(u, 0));
+    link(t2, 1, to_ca);
+    link(u, 1, edge_handle(u2, 2));
+    link(u, 2, to_dc);
+    link(u2, 1, to_bd);
+    for (const std::uint32_t changed : {t, t2, u, u2}) renew(changed);
+    return v;
+}
+
+void MetricMesh::swap(EdgeHandle h, float first, float second) {
+    //        a                 a
+    //      / t \             / | \           The handles of the edge are those of a-d afterwards.
+    //    b ----- c   ->    b t | u c
+    //      \ u /             \ | /
+    //        d                 d
+    const std::uint32_t t = triangle_of(h), u = triangle_of(triangles[t].n[edge_of(h)]);
+    const unsigned e = edge_of(h), f = edge_of(triangles[t].n[edge_of(h)]);
+    const std::uint32_t a = triangles[t].v[e], b = triangles[t].v[after(e)], c = triangles[t].v[before(e)];
+    const std::uint32_t d = triangles[u].v[f];
+    assert(turns_left(point(a), point(b), point(d)) && turns_left(point(a), point(d), point(c)));
+    const EdgeHandle to_ca = triangles[t].n[after(e)], to_ab = triangles[t].n[before(e)];
+    const EdgeHandle to_bd = triangles[u].n[after(f)], to_dc = triangles[u].n[before(f)];
+    set_corners(t, a, b, d);
+    set_corners(u, a, d, c);
+    link(t, 0, to_bd);
+    link(t, 1, edge_handle(u, 2));
+    link(t, 2, to_ab);
+    link(u, 0, to_dc);
+    link(u, 1, to_ca);
+    triangles[t].distortion = first;
+    triangles[u].distortion = second;
+    triangles[t].is_settled = triangles[u].is_settled = false;
+    for (const std::uint32_t v : {a, b, c, d}) vertices[v].is_settled = false;
+}
+
+void MetricMesh::contract(std::uint32_t v, const Ring& ring, std::uint32_t onto) {
+    //    y ------ x            y ------ x
+    //    | \    / |            |      / |       The triangles at the edge v-w vanish, and their other neighbours meet.
+    //    |   v    |     ->     |   /    |       On a line there is one of them, and the border behind v-w passes on.
+    //    | /    \ |            | /      |
+    //    w ------ z            w ------ z
+    for (const EdgeHandle h : ring) {
+        const std::uint32_t t = triangle_of(h);
+        const unsigned i = edge_of(h);
+        MeshTriangle& triangle = triangles[t];
+        if (triangle.v[after(i)] != onto && triangle.v[before(i)] != onto) {
+            triangle.v[i] = onto;
+            continue;
+        }
+        // The edge that leads to `onto` and the one that leads from the third corner to v become one.
+        const unsigned w = triangle.v[after(i)] == onto ? after(i) : before(i);
+        const unsigned x = 3 - i - w;
+        const EdgeHandle beyond = triangle.n[i], inside = triangle.n[w];
+        link(triangle_of(inside), edge_of(inside), beyond);
+        vertices[triangle.v[x]].triangle = vertices[onto].triangle = triangle_of(inside);
+        triangle.v[0] = no_index;
+        unused_.push_back(t);
+    }
+    vertices[v].triangle = no_index;
+    for (const EdgeHandle h : ring)
+        if (triangles[triangle_of(h)].is_used()) renew(triangle_of(h));
+}
+
+void MetricMesh::move(std::uint32_t v, const Ring& ring, const MeshVertex& moved) {
+    vertices[v].at = moved.at;
+    vertices[v].metric = moved.metric;
+    vertices[v].place = moved.place;
+    for (const EdgeHandle h : ring) renew(triangle_of(h));
+}
+
+}  // namespace lamina::remeshing

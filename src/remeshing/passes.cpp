@@ -1,0 +1,212 @@
+#include "remeshing/passes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lamina::remeshing {
+
+Passes::LongEdge Passes::longest_edge_of(const MeshTriangle& triangle, double least) const {
+    LongEdge found{0, least};
+    const MeshVertex* corners[] = {&mesh_.vertices[triangle.v[0]], &mesh_.vertices[triangle.v[1]],
+                                   &mesh_.vertices[triangle.v[2]]};
+    for (unsigned e = 0; e < 3; ++e) {
+        if (triangle.n[e] == frozen_border) continue;
+        const MeshVertex &a = *corners[after(e)], &b = *corners[before(e)];
+        const Point edge = b.at - a.at;
+        const double p = product(a.metric, edge, edge), q = product(b.metric, edge, edge);
+        // No mean exceeds the larger of two.
+        if (std::max(p, q) <= found.length * found.length) continue;
+        const double length = length_between(p, q);
+        if (length > found.length) found = {e, length};
+    }
+    return found;
+}
+
+double Passes::longest_edge() const {
+    double result = 0;
+    for (const MeshTriangle& triangle : mesh_.triangles)
+        if (triangle.is_used()) result = longest_edge_of(triangle, result).length;
+    return result;
+}
+
+std::uint32_t Passes::divide(EdgeHandle h) {
+    const MeshTriangle& triangle = mesh_.triangles[triangle_of(h)];
+    const EdgeHandle behind = triangle.n[edge_of(h)];
+    const std::uint32_t b = triangle.v[after(edge_of(h))], c = triangle.v[before(edge_of(h))];
+    const MeshVertex &from = mesh_.vertices[b], &to = mesh_.vertices[c];
+    const Point edge = to.at - from.at;
+    // Both parts are to be equally long where the metric changes geometrically; this share is exact to second order in the
+    // logarithm of the ratio of the two lengths.
+    const double p = std::sqrt(std::sqrt(product(from.metric, edge, edge)));
+    const double q = std::sqrt(std::sqrt(product(to.metric, edge, edge)));
+    MeshVertex vertex;
+    vertex.at = from.at + (q / (p + q)) * edge;
+    vertex.freedom = is_border(behind) ? Freedom::on_line : Freedom::free;
+    const BackgroundMetric::Sample sample = background_.at(vertex.at, from.place);
+    vertex.metric = sample.metric;
+    vertex.place = sample.triangle;
+    return mesh_.divide(h, vertex);
+}
+
+bool Passes::swap_if_better(EdgeHandle h) {
+    const std::uint32_t t = triangle_of(h);
+    const unsigned e = edge_of(h);
+    const MeshTriangle& triangle = mesh_.triangles[t];
+    const EdgeHandle behind = triangle.n[e];
+    if (is_border(behind)) return false;
+    const MeshTriangle& other = mesh_.triangles[triangle_of(behind)];
+    const MeshVertex &a = mesh_.vertices[triangle.v[e]], &b = mesh_.vertices[triangle.v[after(e)]],
+                     &c = mesh_.vertices[triangle.v[before(e)]], &d = mesh_.vertices[other.v[edge_of(behind)]];
+    const auto first = static_cast<float>(mesh_.distortion(a, b, d));
+    const auto second = static_cast<float>(mesh_.distortion(a, d, c));
+    if (!(first > 0 && second > 0 && first + second < 0.999F * (triangle.distortion + other.distortion))) return false;
+    if (!mesh_.turns_left(a.at, b.at, d.at) || !mesh_.turns_left(a.at, d.at, c.at)) return false;
+    mesh_.swap(h, first, second);
+    return true;
+}
+
+void Passes::swap_round(std::uint32_t v) {
+    if (!mesh_.collect_ring(v, ring_)) return;
+    stack_.assign(ring_.begin(), ring_.end());
+    while (!stack_.empty()) {
+        const EdgeHandle h = stack_.back();
+        stack_.pop_back();
+        const EdgeHandle behind = mesh_.triangles[triangle_of(h)].n[edge_of(h)];
+        if (!swap_if_better(h)) continue;
+        stack_.push_back(edge_handle(triangle_of(h), 0));
+        stack_.push_back(edge_handle(triangle_of(behind), 0));
+    }
+}
+
+std::size_t Passes::divide_longer(double length) {
+    std::size_t made = 0;
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t)
+        while (mesh_.triangles[t].is_used()) {
+            const LongEdge found = longest_edge_of(mesh_.triangles[t], length);
+            if (!(found.length > length)) break;
+            const std::uint32_t v = divide(edge_handle(t, found.edge));
+            if (v == no_index) break;
+            swap_round(v);
+            ++made;
+        }
+    return made;
+}
+
+std::size_t Passes::swap_diagonals() {
+    std::size_t swaps = 0;
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+        while (mesh_.triangles[t].is_used() && !mesh_.triangles[t].is_settled) {
+            mesh_.triangles[t].is_settled = true;
+            for (unsigned e = 0; e < 3; ++e)
+                if (swap_if_better(edge_handle(t, e))) {
+                    ++swaps;
+                    break;
+                }
+        }
+    }
+    return swaps;
+}
+
+bool Passes::contract(std::uint32_t v, std::uint32_t onto) {
+    const MeshVertex &gone = mesh_.vertices[v], &kept = mesh_.vertices[onto];
+    if (gone.freedom == Freedom::fixed) return false;
+    if (!mesh_.collect_ring(v, ring_)) return false;
+    if (gone.freedom == Freedom::on_line) {
+        // Only along the line: to the vertex at the border of the first or of the last triangle.
+        const MeshTriangle &first = mesh_.triangles[triangle_of(ring_[0])],
+                           &last = mesh_.triangles[triangle_of(ring_[ring_.size() - 1])];
+        if (first.v[after(edge_of(ring_[0]))] != onto && last.v[before(edge_of(ring_[ring_.size() - 1]))] != onto)
+            return false;
+    }
+    float worst = 0, worst_before = 4;
+    for (const EdgeHandle h : ring_) {
+        const MeshTriangle& triangle = mesh_.triangles[triangle_of(h)];
+        const std::uint32_t x = triangle.v[after(edge_of(h))], y = triangle.v[before(edge_of(h))];
+        worst_before = std::max(worst_before, triangle.distortion);
+        if (x == onto || y == onto) continue;
+        const MeshVertex &p = mesh_.vertices[x], &q = mesh_.vertices[y];
+        if (!mesh_.turns_left(kept.at, p.at, q.at)) return false;
+        const auto distortion = static_cast<float>(mesh_.distortion(kept, p, q));
+        if (!(distortion > 0)) return false;
+        worst = std::max(worst, distortion);
+        if (mesh_.edge_length(onto, x) > longest_in_order || mesh_.edge_length(onto, y) > longest_in_order)
+            return false;
+    }
+    if (worst > worst_before) return false;
+    mesh_.contract(v, ring_, onto);
+    return true;
+}
+
+std::size_t Passes::contract_short() {
+    std::size_t removed = 0;
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+        const MeshTriangle& triangle = mesh_.triangles[t];
+        for (unsigned e = 0; triangle.is_used() && e < 3; ++e) {
+            const std::uint32_t a = triangle.v[after(e)], b = triangle.v[before(e)];
+            if (!is_border(triangle.n[e]) && triangle_of(triangle.n[e]) < t) continue;
+            const Point edge = mesh_.point(b) - mesh_.point(a);
+            const double p = mesh_.squared_length_at(a, edge), q = mesh_.squared_length_at(b, edge);
+            if (std::min(p, q) >= shortest_in_order * shortest_in_order || length_between(p, q) >= shortest_in_order)
+                continue;
+            if (!contract(a, b) && !contract(b, a)) continue;
+            ++removed;
+            break;
+        }
+    }
+    return removed;
+}
+
+Point Passes::ideal_place(std::uint32_t v) const {
+    Point sum{0, 0};
+    const MeshVertex& vertex = mesh_.vertices[v];
+    for (const EdgeHandle h : ring_) {
+        const MeshTriangle& triangle = mesh_.triangles[triangle_of(h)];
+        const MeshVertex &x = mesh_.vertices[triangle.v[after(edge_of(h))]],
+                         &y = mesh_.vertices[triangle.v[before(edge_of(h))]];
+        const MetricTensor m = vertex.metric + x.metric + y.metric;  // three times the mean
+        const Point edge = y.at - x.at;
+        // This vector is perpendicular to the edge in the metric. Its length there is the root of det(m) times that of the edge.
+        const Point normal = perpendicular({m.xx * edge.x + m.xy * edge.y, m.xy * edge.x + m.yy * edge.y});
+        const double scale = 1.5 / std::sqrt(determinant(m) * cross(edge, normal));
+        sum = sum + midpoint(x.at, y.at) + scale * normal;
+    }
+    return (1.0 / static_cast<double>(ring_.size())) * sum;
+}
+
+bool Passes::move_to(std::uint32_t v, Point target) {
+    MeshVertex moved = mesh_.vertices[v];
+    moved.at = target;
+    const BackgroundMetric::Sample sample = background_.at(target, moved.place);
+    moved.metric = sample.metric;
+    moved.place = sample.triangle;
+    float before_sum = 0, after_sum = 0;
+    for (const EdgeHandle h : ring_) {
+        const MeshTriangle& triangle = mesh_.triangles[triangle_of(h)];
+        const MeshVertex &x = mesh_.vertices[triangle.v[after(edge_of(h))]],
+                         &y = mesh_.vertices[triangle.v[before(edge_of(h))]];
+        const auto distortion = static_cast<float>(mesh_.distortion(moved, x, y));
+        if (!(distortion > 0) || !mesh_.turns_left(target, x.at, y.at)) return false;
+        before_sum += triangle.distortion;
+        after_sum += distortion;
+    }
+    if (!(after_sum < 0.999F * before_sum)) return false;
+    mesh_.move(v, ring_, moved);
+    return true;
+}
+
+bool Passes::move(std::uint32_t v) {
+    if (mesh_.vertices[v].freedom != Freedom::free || mesh_.vertices[v].is_settled || !mesh_.vertices[v].is_used())
+        return false;
+    mesh_.vertices[v].is_settled = true;
+    if (!mesh_.collect_ring(v, ring_)) return false;
+    const Point from = mesh_.point(v), target = ideal_place(v);
+    return move_to(v, target) || move_to(v, midpoint(from, target));
+}
+
+std::size_t Passes::move_vertices() {
+    std::size_t moves = 0;
+    for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v) moves += move(v) ? 1 : 0;
+    return moves;
+}
+
+}  // namespace lamina::remeshing
