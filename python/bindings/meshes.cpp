@@ -16,7 +16,9 @@
 
 #include <lamina/files.hpp>
 #include <lamina/io.hpp>
+#include <lamina/metric.hpp>
 #include <lamina/pipeline.hpp>
+#include <lamina/remesh.hpp>
 #include <lamina/warning.hpp>
 
 #include "arrays.hpp"
@@ -132,6 +134,23 @@ ReadOnlyArray<double> distances(const SharedMesh& mesh) {
     return owning_array<double>(std::move(found));
 }
 
+/// Returns (mesh, metric, number of triangles beyond the layer, share of edges of unit length, mean quality).
+nb::tuple remesh_by(const SharedMesh& mesh, const RowsArgument<double, 3>& tensors, bool divide_borders,
+                    const std::optional<double>& vertices, const std::optional<double>& gradation,
+                    const std::optional<double>& max_ratio) {
+    RemeshOptions options{.divide_borders = divide_borders, .vertices = vertices, .gradation = gradation};
+    if (max_ratio) options.max_ratio = *max_ratio;
+    std::vector<MetricTensor> metric(tensors.shape(0));
+    for (std::size_t i = 0; i < metric.size(); ++i) {
+        const double* row = tensors.data() + 3 * i;
+        metric[i] = {row[0], row[1], row[2]};
+    }
+    RemeshedMesh made;
+    run_unlocked([&] { made = remesh(*mesh, metric, options); });
+    return nb::make_tuple(shared(std::move(made.mesh)), owning_array<double>(std::move(made.metric)), made.triangles,
+                          made.unit_edges, made.mean_quality);
+}
+
 /// Returns a view of an array of the mesh, which keeps the mesh alive.
 template <class Scalar, class Item>
 ReadOnlyArray<Scalar> view_of(const SharedMesh& mesh, std::vector<Item> Mesh::*items) {
@@ -224,6 +243,9 @@ void add_meshes(nb::module_& module) {
     module.def("generate", &generate, nb::arg("sections"), nb::arg("values"), nb::arg("sizes").none(),
                nb::arg("progress").none(), nb::arg("stop") = nb::none());
     module.def("read", &read);
+    module.def("read_metric", [](const std::string& file) { return owning_array<double>(read_metric(file)); });
+    module.def("remesh", &remesh_by, nb::arg("mesh"), nb::arg("metric"), nb::arg("divide_borders"),
+               nb::arg("vertices").none(), nb::arg("gradation").none(), nb::arg("max_ratio").none());
     module.def("create_folders_above", [](const std::string& file) { create_folders_above(file); });
     module.def("mesh_of_arrays", &mesh_of_arrays);
     module.def("format_names", [] {

@@ -17,12 +17,14 @@ from ._mesh import (Mesh, MeshCheck, QualitySummary, TransitionSummary, WallSumm
                     mesh_of_arrays, read)
 from ._meshing import mesh
 from ._morph import MorphMap
+from ._remesh import RemeshedMesh, read_metric, remesh
 from ._sections import naca, outlines
 from ._triangulation import (IndexLists, Triangulation, VoronoiDiagram, constrain_triangles, constrained_delaunay,
                              delaunay, merge_points, refine, ring_segments)
 
 __all__ = ["BatchResult", "DynamicTriangulation", "Error", "IndexLists", "InputError", "IoError", "LimitError", "Mesh",
-           "MeshCheck", "MeshError", "MeshWarning", "MorphMap", "OptionError", "QualitySummary", "RunEstimate",
+           "MeshCheck", "MeshError", "MeshWarning", "MorphMap", "OptionError", "QualitySummary", "RemeshedMesh", "RunEstimate",
            "TransitionSummary", "Triangulation", "UsageError", "VoronoiDiagram", "WallSummary", "WallVertices",
            "__version__", "batch", "check", "constrain_triangles", "constrained_delaunay", "delaunay", "formats",
-           "merge_points", "mesh", "mesh_of_arrays", "naca", "outlines", "read", "refine", "ring_segments"]
+           "merge_points", "mesh", "mesh_of_arrays", "naca", "outlines", "read", "read_metric", "refine", "remesh",
+           "ring_segments"]

@@ -12,6 +12,7 @@ namespace lamina::app {
 void add_mesh_command(CLI::App& app, Ranks* ranks);
 void add_family_command(CLI::App& app);
 void add_sizes_command(CLI::App& app);
+void add_remesh_command(CLI::App& app);
 void add_adapt_command(CLI::App& app);
 void add_morph_command(CLI::App& app);
 void add_batch_command(CLI::App& app);

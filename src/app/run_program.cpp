@@ -89,6 +89,7 @@ void run(const std::vector<std::string>& arguments, Ranks* ranks) {
     add_mesh_command(app, ranks);
     add_family_command(app);
     add_sizes_command(app);
+    add_remesh_command(app);
     add_adapt_command(app);
     add_morph_command(app);
     add_batch_command(app);

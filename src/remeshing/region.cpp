@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include <lamina/error.hpp>
 
 #include "core/lexicographic_order.hpp"
 #include "core/predicates.hpp"
 #include "mesh/adjacency.hpp"
+#include "mesh/cell_text.hpp"
 #include "mesh/isotropic_cells.hpp"
 #include "remeshing/metric.hpp"
 
@@ -36,6 +39,12 @@ public:
     }
 
     MetricMesh take(bool divide_borders) {
+        if (!adjacency_.overused.empty()) {
+            const std::uint32_t edge = adjacency_.overused.front();
+            throw InputError({.at = mesh_.points[edges_.origin(edge).index()]},
+                             fmt::format("edge {} has more than one cell on a side",
+                                         mesh::edge_text({edges_.origin(edge), edges_.target(edge)})));
+        }
         find_borders(divide_borders);
         add_triangles();
         find_freedoms();
@@ -73,6 +82,9 @@ private:
                 triangle.v[i] = mesh_.triangles[t].v[i].value;
                 region_.vertices[triangle.v[i]].triangle = region_.vertices[triangle.v[i]].place = number[t];
             }
+            const Point a = region_.point(triangle.v[0]);
+            if (!region_.turns_left(a, region_.point(triangle.v[1]), region_.point(triangle.v[2])))
+                throw InputError({.at = a}, mesh::cell_text(mesh_, t) + " is not counter-clockwise");
         }
         borders_.resize(mesh_.points.size());
         for (std::size_t t = 0; t < number.size(); ++t) {

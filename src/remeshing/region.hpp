@@ -15,12 +15,13 @@ namespace lamina::remeshing {
 /// Returns whether a cell is remeshed: a triangle that is not of the layer.
 bool is_remeshed(const MeshView& mesh, std::size_t cell);
 
-/// Returns the triangles that are remeshed, with all vertices of the mesh, which keep their numbers. Edges behind which nothing
-/// changes are borders; if `divide_borders`, those on straight lines of the boundary have the number of their marker.
+/// Returns the triangles that are remeshed, with all vertices of the mesh, which keep their numbers. Edges behind which
+/// nothing changes are borders; if `divide_borders`, those on straight lines of the boundary have the number of their
+/// marker. Throws InputError where a triangle is not counter-clockwise, and where an edge has several cells on a side.
 MetricMesh take_region(const MeshView& mesh, std::span<const MetricTensor> metric, bool divide_borders);
 
-/// Lowers the metric along edges that stay until they are no longer than an edge that is in order: without that, the triangles at
-/// them would be divided without end.
+/// Lowers the metric along edges that stay until they are no longer than an edge that is in order: without that, the
+/// triangles at them would be divided without end.
 void limit_at_frozen_edges(MetricMesh& region);
 
 /// Returns the mesh with its region replaced, and fills in the metric at its vertices.
