@@ -14,6 +14,45 @@ std::uint32_t MetricMesh::new_triangle() {
     return t;
 }
 
+void MetricMesh::renumber() {
+    std::vector<std::uint32_t> order, number(triangles.size(), no_index), vertex_number(vertices.size(), no_index);
+    order.reserve(triangles.size());
+    const auto visit = [&](std::uint32_t t) {
+        if (!triangles[t].is_used() || number[t] != no_index) return;
+        number[t] = static_cast<std::uint32_t>(order.size());
+        order.push_back(t);
+    };
+    std::vector<MeshVertex> new_vertices;
+    new_vertices.reserve(vertices.size());
+    std::size_t at = 0;
+    for (std::uint32_t start = 0; start < triangles.size(); ++start) {
+        visit(start);
+        for (; at < order.size(); ++at)
+            for (const EdgeHandle behind : triangles[order[at]].n)
+                if (!is_border(behind)) visit(triangle_of(behind));
+    }
+    std::vector<MeshTriangle> new_triangles;
+    new_triangles.reserve(order.size());
+    for (const std::uint32_t t : order) {
+        MeshTriangle triangle = triangles[t];
+        for (unsigned i = 0; i < 3; ++i) {
+            const std::uint32_t v = triangle.v[i];
+            if (vertex_number[v] == no_index) {
+                vertex_number[v] = static_cast<std::uint32_t>(new_vertices.size());
+                new_vertices.push_back(vertices[v]);
+                new_vertices.back().triangle = number[t];
+            }
+            triangle.v[i] = vertex_number[v];
+            if (!is_border(triangle.n[i]))
+                triangle.n[i] = edge_handle(number[triangle_of(triangle.n[i])], edge_of(triangle.n[i]));
+        }
+        new_triangles.push_back(triangle);
+    }
+    vertices = std::move(new_vertices);
+    triangles = std::move(new_triangles);
+    unused_.clear();
+}
+
 void MetricMesh::renew(std::uint32_t t) {
     MeshTriangle& triangle = triangles[t];
     MeshVertex &a = vertices[triangle.v[0]], &b = vertices[triangle.v[1]], &c = vertices[triangle.v[2]];
@@ -154,11 +193,16 @@ void MetricMesh::contract(std::uint32_t v, const Ring& ring, std::uint32_t onto)
         if (triangles[triangle_of(h)].is_used()) renew(triangle_of(h));
 }
 
-void MetricMesh::move(std::uint32_t v, const Ring& ring, const MeshVertex& moved) {
-    vertices[v].at = moved.at;
-    vertices[v].metric = moved.metric;
-    vertices[v].place = moved.place;
-    for (const EdgeHandle h : ring) renew(triangle_of(h));
+void MetricMesh::move(std::uint32_t v, const Ring& ring, const MeshVertex& moved, const float* distortions) {
+    vertices[v] = moved;
+    vertices[v].is_settled = false;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+        MeshTriangle& triangle = triangles[triangle_of(ring[i])];
+        triangle.distortion = distortions[i];
+        triangle.is_settled = false;
+        vertices[triangle.v[after(edge_of(ring[i]))]].is_settled = false;
+        assert(turns_left(point(triangle.v[0]), point(triangle.v[1]), point(triangle.v[2])));
+    }
 }
 
 }  // namespace lamina::remeshing

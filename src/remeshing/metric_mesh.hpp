@@ -49,6 +49,7 @@ struct MeshVertex {
     MetricTensor metric;
     std::uint32_t place = 0;            ///< triangle of the background that holds the vertex
     std::uint32_t triangle = no_index;  ///< one at the vertex
+    std::uint32_t origin = no_index;    ///< its number in the mesh that is remeshed; none where it is new
     Freedom freedom = Freedom::fixed;
     bool is_settled = false;  ///< whether nothing has changed round it since it last stayed where it was
 
@@ -116,8 +117,12 @@ public:
     /// Contracts the edge from the vertex of a ring to the origin (or target) of an edge opposite it. Precondition: all triangles
     /// that stay are counter-clockwise.
     void contract(std::uint32_t v, const Ring& ring, std::uint32_t onto);
-    /// Moves a vertex, with its metric. Precondition: the triangles stay counter-clockwise.
-    void move(std::uint32_t v, const Ring& ring, const MeshVertex& moved);
+    /// Moves a vertex, with its metric. `distortions` are those of its triangles afterwards. Precondition: the triangles stay
+    /// counter-clockwise.
+    void move(std::uint32_t v, const Ring& ring, const MeshVertex& moved, const float* distortions);
+    /// Numbers triangles and vertices as a walk from neighbour to neighbour meets them, and drops those that are not in use:
+    /// what is close in the mesh comes close in memory. Source: E. Cuthill, J. McKee, ACM National Conference (1969).
+    void renumber();
     /// Finds the distortion of a triangle, and notes that it has changed.
     void renew(std::uint32_t t);
 

@@ -92,16 +92,22 @@ std::size_t Passes::divide_longer(double length) {
     return made;
 }
 
+bool Passes::swap_an_edge_of(std::uint32_t t) {
+    for (unsigned e = 0; e < 3; ++e) {
+        // The triangle behind an edge looks at it, too, where it is still to come.
+        const std::uint32_t beyond = triangle_of(mesh_.triangles[t].n[e]);
+        if (!is_border(mesh_.triangles[t].n[e]) && beyond > t && !mesh_.triangles[beyond].is_settled) continue;
+        if (swap_if_better(edge_handle(t, e))) return true;
+    }
+    return false;
+}
+
 std::size_t Passes::swap_diagonals() {
     std::size_t swaps = 0;
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
         while (mesh_.triangles[t].is_used() && !mesh_.triangles[t].is_settled) {
             mesh_.triangles[t].is_settled = true;
-            for (unsigned e = 0; e < 3; ++e)
-                if (swap_if_better(edge_handle(t, e))) {
-                    ++swaps;
-                    break;
-                }
+            if (swap_an_edge_of(t)) ++swaps;
         }
     }
     return swaps;
@@ -156,8 +162,9 @@ std::size_t Passes::contract_short() {
     return removed;
 }
 
-Point Passes::ideal_place(std::uint32_t v) const {
+Passes::Target Passes::find_target(std::uint32_t v) const {
     Point sum{0, 0};
+    float distortion = 0;
     const MeshVertex& vertex = mesh_.vertices[v];
     for (const EdgeHandle h : ring_) {
         const MeshTriangle& triangle = mesh_.triangles[triangle_of(h)];
@@ -165,42 +172,41 @@ Point Passes::ideal_place(std::uint32_t v) const {
                          &y = mesh_.vertices[triangle.v[before(edge_of(h))]];
         const MetricTensor m = vertex.metric + x.metric + y.metric;  // three times the mean
         const Point edge = y.at - x.at;
-        // This vector is perpendicular to the edge in the metric. Its length there is the root of det(m) times that of the edge.
+        // This vector is perpendicular to the edge in the metric. Its length there is the root of det(m) times that of the
+        // edge.
         const Point normal = perpendicular({m.xx * edge.x + m.xy * edge.y, m.xy * edge.x + m.yy * edge.y});
         const double scale = 1.5 / std::sqrt(determinant(m) * cross(edge, normal));
         sum = sum + midpoint(x.at, y.at) + scale * normal;
+        distortion += triangle.distortion;
     }
-    return (1.0 / static_cast<double>(ring_.size())) * sum;
-}
-
-bool Passes::move_to(std::uint32_t v, Point target) {
-    MeshVertex moved = mesh_.vertices[v];
-    moved.at = target;
-    const BackgroundMetric::Sample sample = background_.at(target, moved.place);
-    moved.metric = sample.metric;
-    moved.place = sample.triangle;
-    float before_sum = 0, after_sum = 0;
-    for (const EdgeHandle h : ring_) {
-        const MeshTriangle& triangle = mesh_.triangles[triangle_of(h)];
-        const MeshVertex &x = mesh_.vertices[triangle.v[after(edge_of(h))]],
-                         &y = mesh_.vertices[triangle.v[before(edge_of(h))]];
-        const auto distortion = static_cast<float>(mesh_.distortion(moved, x, y));
-        if (!(distortion > 0) || !mesh_.turns_left(target, x.at, y.at)) return false;
-        before_sum += triangle.distortion;
-        after_sum += distortion;
-    }
-    if (!(after_sum < 0.999F * before_sum)) return false;
-    mesh_.move(v, ring_, moved);
-    return true;
+    return {(1.0 / static_cast<double>(ring_.size())) * sum, distortion};
 }
 
 bool Passes::move(std::uint32_t v) {
+    // Smaller gains would not be worth the work of finding them.
+    constexpr float least_gain = 0.001F;
     if (mesh_.vertices[v].freedom != Freedom::free || mesh_.vertices[v].is_settled || !mesh_.vertices[v].is_used())
         return false;
     mesh_.vertices[v].is_settled = true;
     if (!mesh_.collect_ring(v, ring_)) return false;
-    const Point from = mesh_.point(v), target = ideal_place(v);
-    return move_to(v, target) || move_to(v, midpoint(from, target));
+    const Target target = find_target(v);
+    MeshVertex moved = mesh_.vertices[v];
+    moved.at = target.place;
+    const BackgroundMetric::Sample sample = background_.at(moved.at, moved.place);
+    moved.metric = sample.metric;
+    moved.place = sample.triangle;
+    float distortions[Ring::capacity];
+    float left = (1 - least_gain) * target.distortion_before;
+    for (std::size_t i = 0; i < ring_.size(); ++i) {
+        const MeshTriangle& triangle = mesh_.triangles[triangle_of(ring_[i])];
+        const MeshVertex &x = mesh_.vertices[triangle.v[after(edge_of(ring_[i]))]],
+                         &y = mesh_.vertices[triangle.v[before(edge_of(ring_[i]))]];
+        distortions[i] = static_cast<float>(mesh_.distortion(moved, x, y));
+        left -= distortions[i];
+        if (!(distortions[i] > 0 && left > 0) || !mesh_.turns_left(moved.at, x.at, y.at)) return false;
+    }
+    mesh_.move(v, ring_, moved, distortions);
+    return true;
 }
 
 std::size_t Passes::move_vertices() {

@@ -41,9 +41,13 @@ private:
     void swap_round(std::uint32_t v);
     bool swap_if_better(EdgeHandle h);
     bool contract(std::uint32_t v, std::uint32_t onto);
+    bool swap_an_edge_of(std::uint32_t t);
+    struct Target {
+        Point place;              ///< the mean of the places where a triangle of the ring would be the one asked for
+        float distortion_before;  ///< the sum of those of the ring
+    };
+    Target find_target(std::uint32_t v) const;
     bool move(std::uint32_t v);
-    bool move_to(std::uint32_t v, Point target);
-    Point ideal_place(std::uint32_t v) const;
 
     MetricMesh& mesh_;
     const BackgroundMetric& background_;

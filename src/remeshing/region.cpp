@@ -35,6 +35,7 @@ public:
         for (std::size_t v = 0; v < mesh.points.size(); ++v) {
             region_.vertices[v].at = mesh.points[v];
             region_.vertices[v].metric = metric[v];
+            region_.vertices[v].origin = static_cast<std::uint32_t>(v);
         }
     }
 
@@ -57,20 +58,31 @@ private:
     void find_borders(bool divide_borders) {
         border_.assign(edges_.size(), 0);
         for (const std::uint32_t e : adjacency_.boundary) border_[e] = frozen_border;
-        for (std::size_t marker = 0; marker < mesh_.markers.size(); ++marker) {
-            const MarkerKind kind = mesh_.markers[marker].kind;
-            if (kind == MarkerKind::internal) freeze(mesh_.markers[marker].edges);
-            if (!divide_borders || kind == MarkerKind::internal || kind == MarkerKind::periodic) continue;
-            for (const std::uint32_t e : mesh::find_edges(mesh_, mesh_.markers[marker].edges))
-                border_[e] = frozen_border | static_cast<EdgeHandle>(marker + 1);
-        }
-        freeze(mesh_.constraints);
-    }
-    void freeze(std::span<const Segment> segments) {
-        for (const mesh::EdgePair& pair : mesh::find_pairs(mesh_, segments)) {
+        if (divide_borders) number_borders();
+        std::vector<Segment> frozen(mesh_.constraints.begin(), mesh_.constraints.end());
+        for (const Marker& marker : mesh_.markers)
+            if (marker.kind == MarkerKind::internal)
+                frozen.insert(frozen.end(), marker.edges.begin(), marker.edges.end());
+        if (frozen.empty()) return;
+        for (const mesh::EdgePair& pair : mesh::find_pairs(mesh_, frozen)) {
             if (pair.edge != mesh::no_edge) border_[pair.edge] = frozen_border;
             if (pair.twin != mesh::no_edge) border_[pair.twin] = frozen_border;
         }
+    }
+    /// Gives the edges that may be divided the number of their marker.
+    void number_borders() {
+        std::vector<Segment> segments;
+        std::vector<EdgeHandle> borders;
+        for (std::size_t marker = 0; marker < mesh_.markers.size(); ++marker) {
+            const MarkerKind kind = mesh_.markers[marker].kind;
+            if (kind == MarkerKind::internal || kind == MarkerKind::periodic) continue;
+            const std::vector<Segment>& edges = mesh_.markers[marker].edges;
+            segments.insert(segments.end(), edges.begin(), edges.end());
+            borders.resize(segments.size(), frozen_border | static_cast<EdgeHandle>(marker + 1));
+        }
+        const std::vector<std::uint32_t> found = mesh::find_edges(mesh_, segments);
+        for (std::size_t i = 0; i < found.size(); ++i)
+            if (found[i] != mesh::no_edge) border_[found[i]] = borders[i];
     }
     void add_triangles() {
         std::vector<std::uint32_t> number(mesh_.triangles.size(), no_index);
@@ -175,21 +187,21 @@ MetricTensor lowered_along(const MetricTensor& m, Point edge) {
 /// Makes the mesh with the region put back.
 class RegionReturner {
 public:
-    RegionReturner(const MeshView& mesh, const MetricMesh& region) : mesh_(mesh), region_(region) {
-        number_.resize(region.vertices.size());
-        for (std::size_t v = 0; v < number_.size(); ++v)
-            if (stays(v)) number_[v] = VertexId(vertices_++);
-    }
+    RegionReturner(const MeshView& mesh, const MetricMesh& region) : mesh_(mesh), region_(region) { find_numbers(); }
 
-    Mesh put_back(std::vector<MetricTensor>& metric) const {
+    Mesh put_back(std::span<const MetricTensor> asked, std::vector<MetricTensor>& metric) const {
         Mesh result;
-        result.points.reserve(vertices_);
-        metric.clear();
-        metric.reserve(vertices_);
+        result.points.resize(vertices_);
+        metric.resize(vertices_);
         for (std::size_t v = 0; v < number_.size(); ++v) {
-            if (!stays(v)) continue;
-            result.points.push_back(region_.vertices[v].at);
-            metric.push_back(region_.vertices[v].metric);
+            if (!number_[v].valid()) continue;
+            result.points[number_[v].index()] = mesh_.points[v];
+            metric[number_[v].index()] = asked[v];
+        }
+        for (std::size_t v = 0; v < region_number_.size(); ++v) {
+            if (!region_.vertices[v].is_used()) continue;
+            result.points[region_number_[v].index()] = region_.vertices[v].at;
+            metric[region_number_[v].index()] = region_.vertices[v].metric;
         }
         add_cells(result);
         add_markers(result);
@@ -199,10 +211,25 @@ public:
     }
 
 private:
-    /// Returns whether a vertex is part of the result: those of the mesh that the region has not are, too.
-    bool stays(std::size_t v) const {
-        return region_.vertices[v].is_used() ||
-               (v < mesh_.points.size() && region_.vertices[v].freedom == Freedom::fixed);
+    /// Numbers the vertices of the mesh that stay, in their order, and then those that are new.
+    void find_numbers() {
+        std::vector<char> stays(mesh_.points.size(), 0);
+        const mesh::CellEdges cells(mesh_);
+        for (std::size_t cell = 0; cell < cells.cells(); ++cell)
+            for (std::size_t i = 0; !is_remeshed(mesh_, cell) && i < cells.corners(cell); ++i)
+                stays[cells.corner(cell, i).index()] = 1;
+        for (const MeshVertex& vertex : region_.vertices)
+            if (vertex.is_used() && vertex.origin != no_index) stays[vertex.origin] = 1;
+        number_.resize(stays.size());
+        for (std::size_t v = 0; v < stays.size(); ++v)
+            if (stays[v] != 0) number_[v] = VertexId(vertices_++);
+        old_vertices_ = vertices_;
+        region_number_.resize(region_.vertices.size());
+        for (std::size_t v = 0; v < region_number_.size(); ++v) {
+            const MeshVertex& vertex = region_.vertices[v];
+            if (vertex.is_used())
+                region_number_[v] = vertex.origin != no_index ? number_[vertex.origin] : VertexId(vertices_++);
+        }
     }
     void add_cells(Mesh& result) const {
         const auto copy_attributes = [&](std::size_t cell) {
@@ -217,7 +244,8 @@ private:
         }
         for (const MeshTriangle& triangle : region_.triangles)
             if (triangle.is_used())
-                result.triangles.push_back({{number_[triangle.v[0]], number_[triangle.v[1]], number_[triangle.v[2]]}});
+                result.triangles.push_back(
+                    {{region_number_[triangle.v[0]], region_number_[triangle.v[1]], region_number_[triangle.v[2]]}});
         if (!mesh_.region.empty()) result.region.resize(result.triangles.size(), Region::isotropic);
         if (!mesh_.layer.empty()) result.layer.resize(result.triangles.size(), 0);
         for (std::size_t q = 0; q < mesh_.quads.size(); ++q) {
@@ -229,38 +257,40 @@ private:
     }
     /// Copies the markers; where borders were divided, the edges of each follow each other as they did before.
     void add_markers(Mesh& result) const {
-        std::vector<std::vector<std::uint32_t>> next(mesh_.markers.size());
+        std::vector<std::vector<VertexId>> next(mesh_.markers.size());
         for (const MeshTriangle& triangle : region_.triangles)
             for (unsigned e = 0; triangle.is_used() && e < 3; ++e) {
                 if (!is_border(triangle.n[e]) || triangle.n[e] == frozen_border) continue;
                 auto& of_marker = next[(triangle.n[e] & ~border_bit) - 1];
-                if (of_marker.empty()) of_marker.assign(region_.vertices.size(), no_index);
-                of_marker[triangle.v[after(e)]] = triangle.v[before(e)];
+                if (of_marker.empty()) of_marker.resize(vertices_);
+                of_marker[region_number_[triangle.v[after(e)]].index()] = region_number_[triangle.v[before(e)]];
             }
         for (std::size_t m = 0; m < mesh_.markers.size(); ++m) {
             result.markers.push_back({mesh_.markers[m].name, mesh_.markers[m].kind, {}});
             for (const Segment& edge : mesh_.markers[m].edges) add_edges(edge, next[m], result.markers.back().edges);
         }
     }
-    /// Adds the edges that have come of one: from its start up to the next vertex that the marker had before.
-    void add_edges(const Segment& edge, std::vector<std::uint32_t>& next, std::vector<Segment>& edges) const {
-        if (next.empty() || next[edge.a.index()] == no_index) {
-            // It stayed as it was, unless its start has gone: then the edge before it leads past it.
-            if (stays(edge.a.index())) edges.push_back({number_[edge.a.index()], number_[edge.b.index()]});
+    /// Adds the edges that have come of one: from its start up to the next vertex that the mesh had before.
+    void add_edges(const Segment& edge, std::vector<VertexId>& next, std::vector<Segment>& edges) const {
+        // Where its start has gone, the edge before it leads past it.
+        VertexId at = number_[edge.a.index()];
+        if (!at.valid()) return;
+        if (next.empty() || !next[at.index()].valid()) {
+            edges.push_back({at, number_[edge.b.index()]});
             return;
         }
-        for (std::uint32_t at = edge.a.value; next[at] != no_index;) {
-            const std::uint32_t to = std::exchange(next[at], no_index);
-            edges.push_back({number_[at], number_[to]});
+        do {
+            const VertexId to = std::exchange(next[at.index()], VertexId{});
+            edges.push_back({at, to});
             at = to;
-            if (at < mesh_.points.size()) break;
-        }
+        } while (at.index() >= old_vertices_);
     }
 
     const MeshView& mesh_;
     const MetricMesh& region_;
-    std::vector<VertexId> number_;
-    std::size_t vertices_ = 0;
+    std::vector<VertexId> number_;         ///< of the vertices of the mesh; not valid where they have gone
+    std::vector<VertexId> region_number_;  ///< of those of the region
+    std::size_t vertices_ = 0, old_vertices_ = 0;
 };
 
 }  // namespace
@@ -281,8 +311,9 @@ void limit_at_frozen_edges(MetricMesh& region) {
     for (std::uint32_t t = 0; t < region.triangles.size(); ++t) region.renew(t);
 }
 
-Mesh put_back(const MeshView& mesh, const MetricMesh& region, std::vector<MetricTensor>& metric) {
-    return RegionReturner(mesh, region).put_back(metric);
+Mesh put_back(const MeshView& mesh, const MetricMesh& region, std::span<const MetricTensor> asked,
+              std::vector<MetricTensor>& metric) {
+    return RegionReturner(mesh, region).put_back(asked, metric);
 }
 
 }  // namespace lamina::remeshing

@@ -25,7 +25,7 @@ void fit_lengths(Passes& passes) {
 }
 
 void improve(Passes& passes) {
-    constexpr int rounds = 4;
+    constexpr int rounds = 2;
     for (int round = 0; round < rounds; ++round) {
         passes.swap_diagonals();
         passes.move_vertices();
@@ -72,11 +72,12 @@ RemeshedMesh remesh(const MeshView& mesh, std::span<const MetricTensor> metric, 
     const BackgroundMetric background(region);
     Passes passes(region, background);
     fit_lengths(passes);
+    region.renumber();
     improve(passes);
 
     RemeshedMesh result;
     measure(region, result);
-    result.mesh = put_back(mesh, region, result.metric);
+    result.mesh = put_back(mesh, region, asked, result.metric);
     return result;
 }
 

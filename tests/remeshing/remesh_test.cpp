@@ -20,18 +20,6 @@ namespace {
 
 using Coordinates = std::array<double, 4>;
 
-Mesh unit_square(std::size_t n = 9) {
-    Mesh mesh = box_with_hole(n);
-    // The hole is closed by its two triangles.
-    const std::size_t m = n / 2;
-    const auto vertex = [n](std::size_t i, std::size_t j) { return VertexId(j * (n + 1) + i); };
-    mesh.triangles.push_back({{vertex(m, m), vertex(m + 1, m), vertex(m + 1, m + 1)}});
-    mesh.triangles.push_back({{vertex(m, m), vertex(m + 1, m + 1), vertex(m, m + 1)}});
-    mesh.markers.erase(mesh.markers.begin());
-    for (Point& p : mesh.points) p = (1.0 / static_cast<double>(n)) * p;
-    return mesh;
-}
-
 Mesh airfoil_mesh(bool with_layer) {
     CaseOptions options;
     options.far_field.size = 3;
@@ -75,7 +63,7 @@ bool same_bytes(const Mesh& a, const Mesh& b) {
 TEST(Remesh, RandomMetricsGiveValidMeshesThatAreTheSameEachTime) {
     const char* asked = std::getenv("LAMINA_METRICS");
     const std::size_t metrics = asked != nullptr ? std::stoul(asked) : 24;
-    const std::vector<Mesh> meshes{unit_square(),
+    const std::vector<Mesh> meshes{cut_square(9),
                                    annulus({.around = 48, .rings = 8, .layer_rings = 3}),
                                    annulus({.layer_rings = 3, .quads_in_layer = true}),
                                    airfoil_mesh(false),
@@ -94,7 +82,7 @@ TEST(Remesh, RandomMetricsGiveValidMeshesThatAreTheSameEachTime) {
 }
 
 TEST(Remesh, EdgesHaveTheLengthsAskedFor) {
-    const Mesh mesh = unit_square(20);
+    const Mesh mesh = cut_square(20);
     const MetricFormula formulas[] = {
         [](Point) {
             return stretched({1, 0}, 0.03, 0.03);
@@ -120,7 +108,7 @@ TEST(Remesh, EdgesHaveTheLengthsAskedFor) {
 }
 
 TEST(Remesh, AMeshThatFitsItsMetricHardlyChanges) {
-    const Mesh mesh = unit_square(10);
+    const Mesh mesh = cut_square(10);
     const auto formula = [](Point p) { return stretched({1, 0}, 0.05, 0.01 + 0.05 * p.x); };
     const RemeshOptions options{.divide_borders = true};
     Mesh made = remesh(mesh, at_vertices(mesh, formula), options).mesh;
@@ -159,7 +147,7 @@ TEST(Remesh, LayersStay) {
 }
 
 TEST(Remesh, TurnedMirroredAndScaledInputsGiveMeshesAsGood) {
-    const Mesh mesh = unit_square(12);
+    const Mesh mesh = cut_square(12);
     const auto metric = at_vertices(mesh, [](Point p) { return stretched({0.6, 0.8}, 0.1, 0.005 + 0.05 * p.x); });
     const RemeshedMesh plain = remesh(mesh, metric, {.divide_borders = true});
     for (const double scale : {1.0, 1e-9, 1e9}) {
@@ -192,7 +180,7 @@ TEST(Remesh, TurnedMirroredAndScaledInputsGiveMeshesAsGood) {
 }
 
 TEST(Remesh, TheMetricIsScaledGradedAndLimited) {
-    const Mesh mesh = unit_square(20);
+    const Mesh mesh = cut_square(20);
     const auto metric = at_vertices(mesh, [](Point p) { return stretched({1, 0}, 1, p.x < 0.5 ? 0.2 : 1e-3); });
     const RemeshedMesh scaled = remesh(mesh, metric, {.divide_borders = true, .vertices = 3000, .max_ratio = 5});
     EXPECT_NEAR(static_cast<double>(scaled.mesh.points.size()), 3000, 700);
@@ -207,7 +195,7 @@ TEST(Remesh, TheMetricIsScaledGradedAndLimited) {
 }
 
 TEST(Remesh, MetricsThatAreNoneAreRefusedByPlace) {
-    const Mesh mesh = unit_square(5);
+    const Mesh mesh = cut_square(5);
     const std::vector<MetricTensor> good(mesh.points.size(), {100, 0, 100});
     EXPECT_THROW(remesh(mesh, std::span(good).first(3)), InputError);
     for (const MetricTensor bad : {MetricTensor{1, 2, 1}, MetricTensor{-1, 0, -1}, MetricTensor{NAN, 0, 1},

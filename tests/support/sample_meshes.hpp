@@ -102,6 +102,27 @@ inline Mesh box_with_hole(std::size_t n = 5) {
     return mesh;
 }
 
+/// Returns the square [0, 1] x [0, 1] of n x n squares that are split in two. There are no regions; the marker is 'box'.
+inline Mesh cut_square(std::size_t n) {
+    Mesh mesh;
+    const auto vertex = [n](std::size_t i, std::size_t j) { return VertexId(j * (n + 1) + i); };
+    const auto place = [n](std::size_t i) { return static_cast<double>(i) / static_cast<double>(n); };
+    mesh.markers = {{"box", MarkerKind::far_field, {}}};
+    for (std::size_t j = 0; j <= n; ++j)
+        for (std::size_t i = 0; i <= n; ++i) mesh.points.push_back({place(i), place(j)});
+    for (std::size_t j = 0; j < n; ++j) {
+        for (std::size_t i = 0; i < n; ++i) {
+            mesh.triangles.push_back({{vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1)}});
+            mesh.triangles.push_back({{vertex(i, j), vertex(i + 1, j + 1), vertex(i, j + 1)}});
+        }
+        mesh.markers[0].edges.push_back({vertex(j, 0), vertex(j + 1, 0)});
+        mesh.markers[0].edges.push_back({vertex(n, j), vertex(n, j + 1)});
+        mesh.markers[0].edges.push_back({vertex(j + 1, n), vertex(j, n)});
+        mesh.markers[0].edges.push_back({vertex(0, j + 1), vertex(0, j)});
+    }
+    return mesh;
+}
+
 /// Returns a mesh of a triangle and a quadrilateral.
 inline Mesh tiny() {
     Mesh mesh;
