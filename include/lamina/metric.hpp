@@ -29,9 +29,9 @@ struct MetricTensor {
 };
 
 /// Reads the tensors at the vertices of a mesh: from a Medit file in ASCII (.sol) with one solution per vertex, a symmetric
-/// tensor or a size; or from a VTU file whose point data hold the array `metric`, or one tensor alone, of 3 (xx, xy, yy), 4, 6
-/// (xx, yy, zz, xy, yz, xz) or 9 components. A size h is the tensor with 1 / h^2 on its diagonal. Throws IoError; UsageError for
-/// other extensions; InputError where the file is malformed or holds no tensors.
+/// tensor or a size; or from a VTU file whose point data hold the array `metric`, or one tensor alone. A tensor has 3
+/// components (xx, xy, yy; only with this name), 4, 6 (xx, yy, zz, xy, yz, xz) or 9. A size h is the tensor with 1 / h^2 on
+/// its diagonal. Throws IoError; UsageError for other extensions; InputError where the file is malformed or holds none.
 LAMINA_EXPORT std::vector<MetricTensor> read_metric(const std::filesystem::path& file);
 /// Writes tensors as a Medit file in ASCII (.sol). Throws IoError.
 LAMINA_EXPORT void write_metric(std::span<const MetricTensor> metric, const std::filesystem::path& file);

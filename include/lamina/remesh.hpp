@@ -61,7 +61,7 @@ struct RemeshedMesh {
 ///
 /// Preconditions: check_mesh() finds no defect. Throws OptionError for options out of range, InputError where the number
 /// of tensors is not that of vertices or a tensor is not finite or not positive definite, and MeshError where the mesh has
-/// no triangle beyond the layer or more vertices than indices.
+/// no triangle beyond the layer or the metric asks for more than 2^29.
 LAMINA_EXPORT RemeshedMesh remesh(const MeshView& mesh, std::span<const MetricTensor> metric,
                                   const RemeshOptions& options = {});
 

@@ -89,21 +89,24 @@ private:
 
 /// Returns the name of the array that holds the tensors, and the number of its components.
 std::pair<std::string, std::size_t> metric_array(const VtkXmlFile& xml) {
-    const auto is_tensor = [&](const std::string& name) {
-        const std::size_t components = xml.components("PointData/" + name);
-        return components == 3 || components == 4 || components == 6 || components == 9;
-    };
-    std::vector<std::string> names = xml.arrays("PointData");
-    if (std::find(names.begin(), names.end(), "metric") == names.end())
-        names.erase(std::remove_if(names.begin(), names.end(), [&](const auto& name) { return !is_tensor(name); }),
-                    names.end());
-    else
-        names = {"metric"};
-    if (names.size() != 1) xml.fail("no point data named 'metric', and not one array of tensors alone");
-    const std::string name = "PointData/" + names.front();
-    if (xml.components(name) != 1 && !is_tensor(names.front()))
-        xml.fail(fmt::format("'metric' has {} components: must be 1, 3, 4, 6 or 9", xml.components(name)));
-    return {name, xml.components(name)};
+    const auto components = [&](const std::string& name) { return xml.components("PointData/" + name); };
+    std::string found = "metric";
+    if (!xml.has("PointData/metric")) {
+        // Three components may be those of a vector: they need the name.
+        std::vector<std::string> tensors = xml.arrays("PointData");
+        tensors.erase(std::remove_if(tensors.begin(), tensors.end(),
+                                     [&](const std::string& name) {
+                                         const std::size_t count = components(name);
+                                         return count != 4 && count != 6 && count != 9;
+                                     }),
+                      tensors.end());
+        if (tensors.size() != 1) xml.fail("no point data named 'metric', and not one array of tensors alone");
+        found = tensors.front();
+    }
+    const std::size_t count = components(found);
+    if (count != 1 && count != 3 && count != 4 && count != 6 && count != 9)
+        xml.fail(fmt::format("'{}' has {} components: must be 1, 3, 4, 6 or 9", found, count));
+    return {"PointData/" + found, count};
 }
 
 std::vector<MetricTensor> read_medit_metric(const std::string& bytes, const std::string& file) {

@@ -2,10 +2,15 @@
 
 #include <cassert>
 
+#include <lamina/error.hpp>
+
 namespace lamina::remeshing {
+
+void refuse_more_triangles() { throw MeshError("the metric asks for more than 2^29 triangles"); }
 
 std::uint32_t MetricMesh::new_triangle() {
     if (unused_.empty()) {
+        if (triangles.size() >= most_triangles) refuse_more_triangles();
         triangles.emplace_back();
         return static_cast<std::uint32_t>(triangles.size() - 1);
     }

@@ -30,6 +30,9 @@ inline constexpr std::uint32_t no_index = std::numeric_limits<std::uint32_t>::ma
 using EdgeHandle = std::uint32_t;
 inline constexpr EdgeHandle border_bit = 1u << 31;
 inline constexpr EdgeHandle frozen_border = border_bit;
+/// More triangles have no handles.
+inline constexpr std::size_t most_triangles = std::size_t{1} << 29;
+[[noreturn]] void refuse_more_triangles();
 constexpr bool is_border(EdgeHandle h) { return (h & border_bit) != 0; }
 constexpr std::uint32_t triangle_of(EdgeHandle h) { return h >> 2; }
 constexpr unsigned edge_of(EdgeHandle h) { return h & 3u; }

@@ -3,7 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/interruption_point.hpp"
+
 namespace lamina::remeshing {
+
+namespace {
+
+constexpr std::uint32_t triangles_per_look = 4096;
+
+}  // namespace
 
 Passes::LongEdge Passes::longest_edge_of(const MeshTriangle& triangle, double least) const {
     LongEdge found{0, least};
@@ -80,7 +88,8 @@ void Passes::swap_round(std::uint32_t v) {
 
 std::size_t Passes::divide_longer(double length) {
     std::size_t made = 0;
-    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t)
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+        if (t % triangles_per_look == 0) core::check_interruption();
         while (mesh_.triangles[t].is_used()) {
             const LongEdge found = longest_edge_of(mesh_.triangles[t], length);
             if (!(found.length > length)) break;
@@ -89,6 +98,7 @@ std::size_t Passes::divide_longer(double length) {
             swap_round(v);
             ++made;
         }
+    }
     return made;
 }
 

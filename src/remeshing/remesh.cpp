@@ -66,6 +66,7 @@ using namespace remeshing;
 RemeshedMesh remesh(const MeshView& mesh, std::span<const MetricTensor> metric, const RemeshOptions& options) {
     validate(options);
     const std::vector<MetricTensor> asked = asked_metric(mesh, metric, options);
+    if (2 * vertices_of_metric(mesh, asked) > static_cast<double>(most_triangles)) refuse_more_triangles();
     MetricMesh region = take_region(mesh, asked, options.divide_borders);
     limit_at_frozen_edges(region);
     if (region.triangles.empty()) throw MeshError("the mesh has no triangles beyond its layer");

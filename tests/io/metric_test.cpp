@@ -14,13 +14,14 @@ namespace {
 
 class MetricFiles : public testing::Test {
 protected:
-    std::filesystem::path vtu(const std::string& components, const std::string& values) const {
+    std::filesystem::path vtu(const std::string& components, const std::string& values,
+                              const std::string& name = "M") const {
         return folder_.write(
             "m.vtu",
             "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid><Piece NumberOfPoints=\"2\" "
             "NumberOfCells=\"0\"><PointData><DataArray type=\"Float64\" Name=\"p\" format=\"ascii\">1 2"
-            "</DataArray><DataArray type=\"Float64\" Name=\"M\" NumberOfComponents=\"" +
-                components + "\" format=\"ascii\">" + values +
+            "</DataArray><DataArray type=\"Float64\" Name=\"" +
+                name + "\" NumberOfComponents=\"" + components + "\" format=\"ascii\">" + values +
                 "</DataArray></PointData></Piece></UnstructuredGrid></VTKFile>");
     }
     TemporaryFolder folder_;
@@ -42,7 +43,7 @@ TEST_F(MetricFiles, OfMeditHoldSizesOrTensorsOfTwoOrThreeDimensions) {
 
 TEST_F(MetricFiles, OfVtkHoldTensorsInEachOfTheirForms) {
     const std::vector<MetricTensor> metric{{5, 1, 7}, {6, 2, 8}};
-    EXPECT_EQ(read_metric(vtu("3", "5 1 7 6 2 8")), metric);
+    EXPECT_EQ(read_metric(vtu("3", "5 1 7 6 2 8", "metric")), metric);
     EXPECT_EQ(read_metric(vtu("4", "5 1 1 7 6 2 2 8")), metric);
     EXPECT_EQ(read_metric(vtu("6", "5 7 0 1 0 0 6 8 0 2 0 0")), metric);
     EXPECT_EQ(read_metric(vtu("9", "5 1 0 1 7 0 0 0 0 6 2 0 2 8 0 0 0 0")), metric);
@@ -55,7 +56,8 @@ TEST_F(MetricFiles, ThatAreNoneAreRefused) {
     EXPECT_THROW(read_metric(folder_.write("c.sol", head + "2\n1 2\n1 2 3 4\nEnd\n")), InputError);
     EXPECT_THROW(read_metric(folder_.write("d.sol", head + "2\n1 3\n1 0 1 1 x 1\n")), InputError);
     EXPECT_THROW(read_metric(folder_.write("e.sol", head + "999999999999\n1 3\n1 0 1\n")), InputError);
-    EXPECT_THROW(read_metric(vtu("2", "1 2 3 4")), InputError);
+    EXPECT_THROW(read_metric(vtu("2", "1 2 3 4", "metric")), InputError);
+    EXPECT_THROW(read_metric(vtu("3", "1 0 0 2 0 0")), InputError) << "a vector";
     EXPECT_THROW(read_metric(folder_.write("m.txt", "")), UsageError);
     EXPECT_THROW(read_metric(folder_ / "none.sol"), IoError);
 }
