@@ -86,8 +86,7 @@ void Passes::swap_round(std::uint32_t v) {
     }
 }
 
-std::size_t Passes::divide_longer(double length) {
-    std::size_t made = 0;
+void Passes::divide_longer(double length) {
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
         if (t % triangles_per_look == 0) core::check_interruption();
         while (mesh_.triangles[t].is_used()) {
@@ -96,31 +95,26 @@ std::size_t Passes::divide_longer(double length) {
             const std::uint32_t v = divide(edge_handle(t, found.edge));
             if (v == no_index) break;
             swap_round(v);
-            ++made;
         }
     }
-    return made;
 }
 
-bool Passes::swap_an_edge_of(std::uint32_t t) {
+void Passes::swap_an_edge_of(std::uint32_t t) {
     for (unsigned e = 0; e < 3; ++e) {
         // The triangle behind an edge looks at it, too, where it is still to come.
         const std::uint32_t beyond = triangle_of(mesh_.triangles[t].n[e]);
         if (!is_border(mesh_.triangles[t].n[e]) && beyond > t && !mesh_.triangles[beyond].is_settled) continue;
-        if (swap_if_better(edge_handle(t, e))) return true;
+        if (swap_if_better(edge_handle(t, e))) return;
     }
-    return false;
 }
 
-std::size_t Passes::swap_diagonals() {
-    std::size_t swaps = 0;
+void Passes::swap_diagonals() {
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
         while (mesh_.triangles[t].is_used() && !mesh_.triangles[t].is_settled) {
             mesh_.triangles[t].is_settled = true;
-            if (swap_an_edge_of(t)) ++swaps;
+            swap_an_edge_of(t);
         }
     }
-    return swaps;
 }
 
 bool Passes::contract(std::uint32_t v, std::uint32_t onto) {
@@ -192,13 +186,13 @@ Passes::Target Passes::find_target(std::uint32_t v) const {
     return {(1.0 / static_cast<double>(ring_.size())) * sum, distortion};
 }
 
-bool Passes::move(std::uint32_t v) {
+void Passes::move(std::uint32_t v) {
     // Smaller gains would not be worth the work of finding them.
     constexpr float least_gain = 0.001F;
     if (mesh_.vertices[v].freedom != Freedom::free || mesh_.vertices[v].is_settled || !mesh_.vertices[v].is_used())
-        return false;
+        return;
     mesh_.vertices[v].is_settled = true;
-    if (!mesh_.collect_ring(v, ring_)) return false;
+    if (!mesh_.collect_ring(v, ring_)) return;
     const Target target = find_target(v);
     MeshVertex moved = mesh_.vertices[v];
     moved.at = target.place;
@@ -213,16 +207,13 @@ bool Passes::move(std::uint32_t v) {
                          &y = mesh_.vertices[triangle.v[before(edge_of(ring_[i]))]];
         distortions[i] = static_cast<float>(mesh_.distortion(moved, x, y));
         left -= distortions[i];
-        if (!(distortions[i] > 0 && left > 0) || !mesh_.turns_left(moved.at, x.at, y.at)) return false;
+        if (!(distortions[i] > 0 && left > 0) || !mesh_.turns_left(moved.at, x.at, y.at)) return;
     }
     mesh_.move(v, ring_, moved, distortions);
-    return true;
 }
 
-std::size_t Passes::move_vertices() {
-    std::size_t moves = 0;
-    for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v) moves += move(v) ? 1 : 0;
-    return moves;
+void Passes::move_vertices() {
+    for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v) move(v);
 }
 
 }  // namespace lamina::remeshing

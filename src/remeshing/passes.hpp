@@ -19,16 +19,17 @@ class Passes {
 public:
     Passes(MetricMesh& mesh, const BackgroundMetric& background) : mesh_(mesh), background_(background) {}
 
-    /// Divides edges longer than this, the longest of each triangle first, and swaps diagonals round the new vertices. Returns the
-    /// number of new vertices.
-    std::size_t divide_longer(double length);
-    /// Contracts edges shorter than 1 / sqrt(2) where no edge becomes longer than sqrt(2). Returns the number of vertices removed.
+    /// Divides edges longer than this, the longest of each triangle first, and swaps diagonals round the new vertices.
+    void divide_longer(double length);
+    /// Contracts edges shorter than 1 / sqrt(2) where no edge becomes longer than sqrt(2). Returns the number of vertices
+    /// removed.
     std::size_t contract_short();
-    /// Swaps diagonals where this lowers the sum of distortions. Returns the number of swaps.
-    std::size_t swap_diagonals();
+    /// Swaps diagonals where this lowers the sum of distortions.
+    void swap_diagonals();
     /// Moves vertices towards where their triangles are equilateral with edges of length 1, where this lowers the sum of
-    /// distortions. Returns the number of moves.
-    std::size_t move_vertices();
+    /// distortions.
+    void move_vertices();
+    /// Returns the length of the longest edge that may be divided.
     double longest_edge() const;
 
 private:
@@ -41,13 +42,13 @@ private:
     void swap_round(std::uint32_t v);
     bool swap_if_better(EdgeHandle h);
     bool contract(std::uint32_t v, std::uint32_t onto);
-    bool swap_an_edge_of(std::uint32_t t);
+    void swap_an_edge_of(std::uint32_t t);
     struct Target {
         Point place;              ///< the mean of the places where a triangle of the ring would be the one asked for
         float distortion_before;  ///< the sum of those of the ring
     };
     Target find_target(std::uint32_t v) const;
-    bool move(std::uint32_t v);
+    void move(std::uint32_t v);
 
     MetricMesh& mesh_;
     const BackgroundMetric& background_;
