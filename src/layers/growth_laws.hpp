@@ -1,5 +1,5 @@
 // The growth laws, in one table. A further law gets an enumerator of GrowthLaw (layers.hpp), a function for its heights
-// and a row of the table (growth_laws.cpp). The option and its help, validation, heights and checks all read the table.
+// and a row of the table (growth.cpp). The option and its help, validation, heights and checks all read the table.
 #pragma once
 
 #include <cstdint>

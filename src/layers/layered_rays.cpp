@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "layers/heights/end_spacings.hpp"
 #include "layers/heights/heights.hpp"
+#include "layers/heights/stretch.hpp"
 #include "layers/room/counts.hpp"
 #include "layers/room/truncation.hpp"
 #include "layers/stages.hpp"

@@ -15,7 +15,7 @@
 #include "core/bounding_box.hpp"
 #include "core/box_tree.hpp"
 #include "layers/border/close_border.hpp"
-#include "layers/border/target_length.hpp"
+#include "layers/border/divide_borders.hpp"
 #include "layers/layered_rays.hpp"
 #include "layers/stages.hpp"
 

@@ -12,7 +12,7 @@
 
 #include "core/angles.hpp"
 #include "core/parallel.hpp"
-#include "layers/cells/connect.hpp"
+#include "layers/cells/fill.hpp"
 #include "layers/cells/fill.hpp"
 #include "layers/cells/strip.hpp"
 #include "layers/expect_cover.hpp"

@@ -1,6 +1,6 @@
 // The last layers of narrow columns are lowered towards the triangles beyond, where the front and the numbers of layers
 // stay as they are.
-#include "layers/heights/end_spacings.hpp"
+#include "layers/heights/stretch.hpp"
 
 #include <gtest/gtest.h>
 

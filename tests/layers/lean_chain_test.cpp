@@ -1,5 +1,5 @@
 // The chain problem of leans, against an independent solver and its conditions of optimality.
-#include "layers/directions/lean_chain.hpp"
+#include "layers/directions/leans.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,17 +1,18 @@
 // Stage "close the border": the fronts are divided, and all points of the layer placed. Source: J. K. Pardue, thesis
 // (2015), chapter 3.
 #include "layers/border/close_border.hpp"
-#include "layers/layer.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include <lamina/layers.hpp>
 
+#include "core/parallel.hpp"
 #include "layers/border/divide_borders.hpp"
-#include "layers/border/layer_builder.hpp"
-#include "layers/border/target_length.hpp"
+#include "layers/layer.hpp"
 #include "layers/layered_rays.hpp"
 #include "layers/measures.hpp"
 #include "layers/mechanisms.hpp"
@@ -19,6 +20,273 @@
 #include "layers/stages.hpp"
 
 namespace lamina::layers {
+
+// The numbering and placing of the points of the layer: walls, rays, borders.
+
+namespace {
+
+class LayerBuilder {
+public:
+    LayerBuilder(const Rays& rays, const std::vector<std::vector<FrontCorner>>& corners, const BorderDivision& division)
+        : rays_(rays),
+          set_(rays.set),
+          corners_(corners),
+          division_(division),
+          origin_of_ray_(set_.lines.size()),
+          corner_after_ray_(set_.lines.size()),
+          first_point_(set_.lines.size()),
+          base_of_element_(set_.elements()),
+          wall_divisions_(corners.size()) {}
+
+    Layer build() && {
+        place_walls();
+        place_wakes();
+        place_cores();
+        place_ray_points();
+        place_borders();
+        if (rays_.enabled) {
+            describe_rays();
+        } else {
+            layer_.rays.resize(set_.elements());
+        }
+        for (auto* lists : {&layer_.walls, &layer_.borders}) lists->resize(rays_.shown());
+        layer_.rays.resize(rays_.shown());
+        assert(layer_.layer_of_point.size() == layer_.points.size());
+        return std::move(layer_);
+    }
+
+private:
+    const Rays& rays_;
+    const RaySet& set_;
+    const std::vector<std::vector<FrontCorner>>& corners_;
+    const BorderDivision& division_;
+    std::vector<VertexId> origin_of_ray_;                  ///< the origin of each ray
+    std::vector<std::vector<VertexId>> corner_after_ray_;  ///< RayLine::corner_after of each ray
+    std::vector<std::size_t> first_point_;                 ///< Ray::first_point of each ray
+    std::vector<std::vector<VertexId>> base_of_element_;   ///< with its corners; empty without a wake behind it
+    /// For each corner of each front, the division points of the wall edge behind it.
+    std::vector<std::vector<std::vector<VertexId>>> wall_divisions_;
+    Layer layer_;
+
+    VertexId add_point(Point p, std::uint32_t layer) {
+        layer_.points.push_back(p);
+        layer_.layer_of_point.push_back(static_cast<std::uint16_t>(layer));
+        return VertexId(layer_.points.size() - 1);
+    }
+
+    /// Returns the number of edges of a front in the domain.
+    std::size_t edges_in_domain(std::size_t element) const {
+        const std::size_t corners = corners_in_domain(rays_, element, corners_[element]);
+        return corners > 0 ? corners - rays_.is_open(element) : 0;
+    }
+
+    const FrontCorner& corner_after(std::size_t element, std::size_t k) const {
+        return corners_[element][(k + 1) % corners_[element].size()];
+    }
+
+    /// Adds the vertices of a base before a wake, where no rays stand, to the end of the wall that begins and ends at
+    /// its corners.
+    void place_base(const WakeCore& core) {
+        std::vector<VertexId>& wall = layer_.walls[core.element];
+        const std::vector<Point>& base = core.chains.front();
+        std::vector<VertexId>& placed = base_of_element_[core.element];
+        placed.push_back(wall.back());
+        for (std::size_t i = 1; i + 1 < base.size(); ++i) {
+            wall.push_back(add_point(base[i], 0));
+            placed.push_back(wall.back());
+        }
+        placed.push_back(wall.front());
+    }
+
+    /// Adds the division points of the edge behind a corner of a front to the end of the wall, if that edge is the
+    /// wall's.
+    void divide_wall(std::size_t element, std::size_t k) {
+        if (corners_[element][k].layers > 0 || corner_after(element, k).layers > 0) return;
+        std::vector<VertexId>& divisions = wall_divisions_[element][k];
+        for (Point p : division_.points[element][k]) divisions.push_back(add_point(p, 0));
+        layer_.walls[element].insert(layer_.walls[element].end(), divisions.begin(), divisions.end());
+    }
+
+    /// Places the walls. Division points of the border divide the wall, too, where the border runs along it.
+    void place_walls() {
+        layer_.walls.resize(set_.elements());
+        for (std::size_t e = 0; e < set_.elements(); ++e) {
+            std::vector<VertexId>& wall = layer_.walls[e];
+            wall_divisions_[e].resize(corners_[e].size());
+            const std::size_t edges = edges_in_domain(e);
+            std::size_t k = 0;  // the next corner of the front
+            for (std::size_t i = set_.begin[e]; i < rays_.domain_end(e); ++i) {
+                const Point origin = set_.lines[i].origin;
+                const bool on_wall = set_.lines[i].place == RayPlace::wall;
+                if (on_wall && (wall.empty() || origin != layer_.points[wall.back().index()])) {
+                    // A wall with a wake ends at the sharp trailing edge that it begins at.
+                    const bool closed = !wall.empty() && origin == layer_.points[wall.front().index()];
+                    origin_of_ray_[i] = closed ? wall.front() : add_point(origin, 0);
+                    if (!closed) wall.push_back(origin_of_ray_[i]);
+                } else if (on_wall) {
+                    origin_of_ray_[i] = wall.back();
+                }
+                const auto divide_edge_behind = [&](std::size_t after) {
+                    if (k < edges && corners_[e][k].ray == i && corners_[e][k].after == after) divide_wall(e, k++);
+                };
+                divide_edge_behind(0);
+                for (const Point p : set_.lines[i].corner_after) {
+                    corner_after_ray_[i].push_back(add_point(p, 0));
+                    wall.push_back(corner_after_ray_[i].back());
+                    divide_edge_behind(corner_after_ray_[i].size());
+                }
+            }
+            assert(k == edges);
+            for (const WakeCore& core : rays_.cores)
+                if (core.element == e) place_base(core);
+        }
+        layer_.wall_points = layer_.points.size();
+    }
+
+    /// Places the vertices of wakes. Where both sides have one vertex, that on the way back is that of the way out.
+    void place_wakes() {
+        for (std::size_t e = 0; e < set_.elements(); ++e) {
+            std::vector<VertexId> way_out;
+            bool ended = false;
+            for (std::size_t i = set_.begin[e]; i < set_.begin[e + 1]; ++i) {
+                const RayLine& ray = set_.lines[i];
+                if (ray.place == RayPlace::wall) continue;
+                const bool shared = ended && ray.origin == layer_.points[way_out.back().index()];
+                origin_of_ray_[i] = shared ? way_out.back() : add_point(ray.origin, 0);
+                if (ended) {
+                    way_out.pop_back();
+                } else {
+                    ended = ray.place == RayPlace::wake_end;
+                    if (!ended) way_out.push_back(origin_of_ray_[i]);
+                }
+            }
+        }
+    }
+
+    /// Places the inner points of cores, and gathers those that have vertices already: on the base and at stations.
+    void place_cores() {
+        for (const WakeCore& core : rays_.cores) {
+            LayerCore& placed =
+                layer_.cores.emplace_back(LayerCore{core.element, {base_of_element_[core.element]}, core.stations});
+            placed.chains.resize(core.chains.size());
+            // Vertex k of the wake is the origin of ray out + k and of ray back - k.
+            const std::size_t back = set_.begin[core.element + 1] - 1;
+            std::size_t out = back;
+            while (set_.lines[out - 1].place != RayPlace::wall) --out;
+            std::size_t k = 0;
+            for (std::size_t c = 1; c < core.chains.size(); ++c) {
+                const bool station = core.stations[k] == c;
+                std::vector<VertexId>& chain = placed.chains[c];
+                for (std::size_t i = 0; i < core.chains[c].size(); ++i) {
+                    const bool first = i == 0, last = i + 1 == core.chains[c].size();
+                    const std::vector<VertexId>& before = placed.chains[c - 1];
+                    if (!first && !last)
+                        chain.push_back(add_point(core.chains[c][i], c));
+                    else if (station)
+                        chain.push_back(origin_of_ray_[first ? out + k : back - k]);
+                    else
+                        chain.push_back(first ? before.front() : before.back());
+                }
+                assert(chain.size() == core.chains[c].size());
+                k += station;
+            }
+        }
+    }
+
+    void place_ray_points() {
+        std::size_t total = layer_.points.size();
+        std::vector<std::uint32_t> counts = rays_.counts;
+        for (std::size_t e = 0; e < set_.elements(); ++e)
+            for (std::size_t i = set_.begin[e]; i < set_.begin[e + 1]; ++i) {
+                if (i >= rays_.domain_end(e)) counts[i] = 0;
+                first_point_[i] = total;
+                total += counts[i];
+            }
+        layer_.points.resize(total);
+        layer_.layer_of_point.resize(total);
+        core::parallel_for(set_.lines.size(), 4096, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                const RayLine& line = set_.lines[i];
+                const std::span<const double> heights = rays_.heights.of(i);
+                for (std::uint32_t n = 1; n <= counts[i]; ++n) {
+                    layer_.points[first_point_[i] + n - 1] = line.origin + (heights[n] * line.direction + line.shift);
+                    layer_.layer_of_point[first_point_[i] + n - 1] = static_cast<std::uint16_t>(n);
+                }
+            }
+        });
+    }
+
+    void place_borders() {
+        layer_.borders.resize(set_.elements());
+        layer_.outer_walls = rays_.outer_walls;
+        for (std::size_t e = 0; e < rays_.shown(); ++e) layer_.open.push_back(rays_.is_open(e));
+        for (std::size_t e = 0; e < set_.elements(); ++e) {
+            std::vector<VertexId>& border = layer_.borders[e];
+            const std::size_t corners = corners_in_domain(rays_, e, corners_[e]), edges = edges_in_domain(e);
+            for (std::size_t k = 0; k < corners; ++k) {
+                const FrontCorner &corner = corners_[e][k], &after = corner_after(e, k);
+                const std::size_t first = border.size();
+                border.push_back(vertex_at(corner));
+                if (k == edges) break;
+                if (corner.layers == 0 && after.layers == 0) {
+                    border.insert(border.end(), wall_divisions_[e][k].begin(), wall_divisions_[e][k].end());
+                } else {
+                    for (Point p : division_.points[e][k])
+                        border.push_back(add_point(p, std::min(corner.layers, after.layers)));
+                }
+                if (!corner.cleft) continue;
+                const CleftEnd& end = *corner.cleft;
+                const std::size_t begin = set_.begin[e];
+                LayerCleft& cleft =
+                    layer_.clefts.emplace_back(LayerCleft{e, end.corner - begin, end.first - begin, end.last - begin});
+                cleft.outer_edge.assign(border.begin() + static_cast<std::ptrdiff_t>(first), border.end());
+                cleft.outer_edge.push_back(vertex_at(after));
+            }
+        }
+    }
+
+    /// Returns the vertex of a front's corner.
+    VertexId vertex_at(const FrontCorner& corner) const {
+        assert(corner.layers <= rays_.counts[corner.ray]);
+        if (corner.after > 0) return corner_after_ray_[corner.ray][corner.after - 1];
+        return corner.layers == 0 ? origin_of_ray_[corner.ray] : VertexId(first_point_[corner.ray] + corner.layers - 1);
+    }
+
+    /// Returns the height that a ray's points stay below because something is in its way. A ray that was lowered for its
+    /// neighbours' sake ends below the layer that it did not get.
+    double height_limit(std::size_t ray) const {
+        const HeightColumn& column = rays_.heights.column(ray);
+        if (rays_.counts[ray] < column.layers) return rays_.heights.of(ray)[rays_.counts[ray] + 1];
+        const bool has_lost_layers = rays_.growth.layers && column.stretch.factor != 1;
+        return column.cut || has_lost_layers ? rays_.front[ray] : HUGE_VAL;
+    }
+
+    void describe_rays() {
+        layer_.rays.resize(set_.elements());
+        for (std::size_t e = 0; e < set_.elements(); ++e) {
+            for (std::size_t i = set_.begin[e]; i < rays_.domain_end(e); ++i) {
+                const HeightColumn& column = rays_.heights.column(i);
+                const std::uint32_t count = rays_.counts[i];
+                layer_.rays[e].push_back({.origin = origin_of_ray_[i],
+                                          .direction = set_.lines[i].direction,
+                                          .layers = count,
+                                          .requested = column.asked_layers,
+                                          .growth = column.growth,
+                                          .first_point = first_point_[i],
+                                          .height_limit = height_limit(i),
+                                          .place = set_.lines[i].place,
+                                          .corner_after = corner_after_ray_[i]});
+            }
+        }
+    }
+};
+
+}  // namespace
+
+Layer build_layer(const Rays& rays, const std::vector<std::vector<FrontCorner>>& corners,
+                  const BorderDivision& division) {
+    return LayerBuilder(rays, corners, division).build();
+}
 
 // The corners of fronts, and the fronts as points.
 

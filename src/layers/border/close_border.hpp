@@ -8,7 +8,10 @@
 #include <vector>
 
 #include "layers/border/clefts.hpp"
+#include "layers/border/divide_borders.hpp"
+#include "layers/layer.hpp"
 #include "layers/layered_rays.hpp"
+#include "layers/stages.hpp"
 
 namespace lamina::layers {
 
@@ -31,5 +34,12 @@ std::size_t corners_in_domain(const Rays& rays, std::size_t element, std::span<c
 
 /// Returns the place of a front's corner.
 Point place_of(const LayeredRays& rays, const FrontCorner& corner);
+
+// Places the points of the layer.
+
+/// Returns the layer of these rays: the points of walls, rays and borders, in this order, and the rays. Leaves
+/// coverage, growth and edges empty. `corners` and `division` belong to the same fronts.
+Layer build_layer(const Rays& rays, const std::vector<std::vector<FrontCorner>>& corners,
+                  const BorderDivision& division);
 
 }  // namespace lamina::layers

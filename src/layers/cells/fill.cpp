@@ -2,16 +2,329 @@
 #include "layers/cells/fill.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cstdint>
+#include <iterator>
+#include <optional>
+#include <span>
 #include <utility>
 
 #include <lamina/delaunay.hpp>
 #include <lamina/error.hpp>
 
-#include "layers/cells/connect.hpp"
+#include "core/parallel.hpp"
+#include "core/predicates.hpp"
+#include "core/rounding.hpp"
+#include "layers/cells/strip.hpp"
 
 namespace lamina::layers {
+
+// Between two neighbouring rays, the grid of rays and layers is a column of cells. The pictures show columns of rays of
+// two origins, of rays of one origin, and of rays of which one has a layer more; the body lies below:
+//
+//     c---q2---q1---b   <- outer border      c-----b             b      b, c   the ends of the top; b on the first ray
+//     |             |                        |     |         .-' |
+//     |-------------|                         |---|         c----|      a, d   lower corners of a cell
+//     |             |                         |   |         |    |
+//     |-------------|                          |-|          |----|      q      division points of the border
+//     |             |                          \ /          |    |
+//     d-------------a   <- wall                a=d          d----a
+//
+// Source: the layer's rays are those of the thesis, chapter 3; joining them as a grid goes beyond it
+// (docs/decisions/0012).
+
+namespace {
+
+constexpr std::size_t columns_per_block = 512;
+
+/// Makes the cells of columns, one after the other.
+class Connector {
+public:
+    Connector(const Layer& layer, GridCells form) : layer_(layer), form_(form), strips_(layer.points) {}
+
+    /// Adds the cells of a column.
+    void add(const CellColumn& column) {
+        const Ray &first = column.first, &second = column.second;
+        const Point from = at(first.origin), to = at(second.origin);
+        first_leads_ = core::is_forward(from == to ? second.direction - first.direction : to - from);
+        const std::uint32_t common = std::min(first.layers, second.layers);
+        const std::uint32_t highest = std::max(first.layers, second.layers);
+        assert(highest - common <= 1);
+        if (common == 0 && from == to) return;  // the border runs along the ray
+
+        const bool divided_sides = column.up.size() > 2 || column.down.size() > 2;
+        for (std::uint32_t n = 1; n <= highest; ++n) {
+            const std::size_t first_triangle = cells_.triangles.size();
+            const std::array<VertexId, 2> lower{first.vertex(n - 1), second.vertex(n - 1)};
+            std::array<VertexId, 2> inner;
+            std::span<const VertexId> top = column.top;
+            if (n < highest) {
+                inner = {first.vertex(n), second.vertex(n)};
+                top = inner;
+            }
+            if (n == 1 && !first.corner_after.empty()) {
+                add_cell_at_corner(column, top);
+            } else if (n == 1 && divided_sides) {
+                add_cell_between_borders(column, top);
+            } else if (n == common && highest > common && column.top.size() > 2) {
+                add_divided_step(column, common);
+                n = highest;
+            } else if (n > common) {
+                add_strip(std::span(lower).subspan(first.layers > common ? 0 : 1, 1), top);
+            } else {
+                add_cell(lower, top, n);
+            }
+            number_triangles(first_triangle, n);
+        }
+    }
+
+    /// Adds the cells of the space behind a base: strips between successive chains.
+    void add(const LayerCore& core) {
+        first_leads_ = true;
+        for (std::size_t c = 1; c < core.chains.size(); ++c) {
+            const std::vector<VertexId>&lower = core.chains[c - 1], &upper = core.chains[c];
+            const auto layer = static_cast<std::uint16_t>(c);
+            const std::size_t n = lower.size();
+            if (n != upper.size()) {
+                add_strip(lower, upper);
+            } else if (lower.front() != upper.front()) {
+                add_cells_between(lower, upper, layer);
+            } else {
+                cells_.triangles.push_back({{lower[0], upper[1], lower[1]}});
+                add_cells_between(std::span(lower).subspan(1, n - 2), std::span(upper).subspan(1, n - 2), layer);
+                cells_.triangles.push_back({{lower[n - 2], upper[n - 2], lower[n - 1]}});
+            }
+            cells_.triangle_layer.resize(cells_.triangles.size(), layer);
+        }
+    }
+
+    /// Adds the triangles between the fronts on both sides of a cleft.
+    void add(const LayerCleft& cleft) {
+        first_leads_ = true;
+        const std::vector<Ray>& rays = layer_.rays[cleft.element];
+        std::vector<VertexId> upper, lower;
+        for (std::size_t i = cleft.corner + 1; i-- > cleft.first;) upper.push_back(rays[i].tip());
+        for (std::size_t i = cleft.corner + 1; i <= cleft.last; ++i) lower.push_back(rays[i].tip());
+        // Division points of the outer edge go to the shorter chain. If that has one corner, they are in line with it
+        // and with the end of the longer one.
+        const std::span<const VertexId> divisions = std::span(cleft.outer_edge).subspan(1, cleft.outer_edge.size() - 2);
+        if (upper.size() <= lower.size())
+            upper.insert(upper.end(), divisions.begin(), divisions.end());
+        else
+            lower.insert(lower.end(), divisions.rbegin(), divisions.rend());
+        std::uint32_t most_layers = 0;
+        for (std::size_t i = cleft.first; i <= cleft.last; ++i) most_layers = std::max(most_layers, rays[i].layers);
+        add_strip(lower, upper);
+        number_triangles(0, most_layers);
+    }
+
+    /// Says that the cells added since the last call are part of the column with this number.
+    void number_column(std::uint32_t number) {
+        assert(cells_.triangle_layer.size() == cells_.triangles.size());
+        assert(cells_.quad_layer.size() == cells_.quads.size());
+        cells_.triangle_column.resize(cells_.triangles.size(), number);
+        cells_.quad_column.resize(cells_.quads.size(), number);
+    }
+
+    LayerCells take() { return std::move(cells_); }
+
+private:
+    const Layer& layer_;
+    GridCells form_;
+    LayerCells cells_;
+    StripCutter strips_;
+    bool first_leads_ = false;       ///< whether the first ray's corner has the preference where cuts are equal
+    std::vector<VertexId> corners_;  ///< of a polygon; kept between calls for its memory
+
+    Point at(VertexId v) const { return layer_.points[v.index()]; }
+
+    /// Sets the layer of the triangles from `first` on, which were made for layer `n`. A triangle belongs to the layer
+    /// above its lowest corner, but to none above n: all its corners may be at the height of a divided top.
+    void number_triangles(std::size_t first, std::uint32_t n) {
+        const auto above = [&](VertexId v) { return std::uint32_t{layer_.layer_of_point[v.index()]} + 1; };
+        for (std::size_t t = first; t < cells_.triangles.size(); ++t) {
+            const auto& [a, b, c] = cells_.triangles[t].v;
+            cells_.triangle_layer.push_back(static_cast<std::uint16_t>(std::min({n, above(a), above(b), above(c)})));
+        }
+    }
+
+    /// Adds the cells of layer n between two chains of equal length.
+    void add_cells_between(std::span<const VertexId> lower, std::span<const VertexId> upper, std::uint16_t n) {
+        for (std::size_t i = 0; i + 1 < lower.size(); ++i) add_cell({lower[i], lower[i + 1]}, upper.subspan(i, 2), n);
+    }
+
+    /// Adds the cell of layer n between two rays that both have it.
+    void add_cell(const std::array<VertexId, 2>& lower, std::span<const VertexId> top, std::uint32_t n) {
+        const auto [a, d] = lower;
+        if (a == d) {
+            add_strip(std::span(lower).first(1), top);
+        } else if (form_ == GridCells::whole && top.size() == 2 &&
+                   core::is_convex(at(a), at(top[0]), at(top[1]), at(d))) {
+            cells_.quads.push_back({{a, top[0], top[1], d}});
+            cells_.quad_layer.push_back(static_cast<std::uint16_t>(n));
+        } else {
+            add_divided_cell(lower, top, lower, n);
+        }
+    }
+
+    /// Adds the cells between two chains. Where they may be whole, and the top is divided, the triangle on this edge
+    /// of the lower chain may be joined with one beside it to a cell of layer n.
+    void add_divided_cell(std::span<const VertexId> lower, std::span<const VertexId> top,
+                          const std::array<VertexId, 2>& edge, std::uint32_t n) {
+        const std::size_t begin = cells_.triangles.size();
+        const bool is_strip = add_strip(lower, top);
+        if (!is_strip || form_ != GridCells::whole || top.size() == 2 || edge[0] == edge[1]) return;
+        const std::optional<Quad> quad =
+            join_on_lower_edge(layer_.points, edge[0], edge[1], first_leads_, begin, cells_.triangles);
+        if (!quad) return;
+        cells_.quads.push_back(*quad);
+        cells_.quad_layer.push_back(static_cast<std::uint16_t>(n));
+    }
+
+    /// Adds the triangles between two chains of vertices. Coordinates may be too coarse for the triangles of a strip;
+    /// then any triangulation will do. Returns whether it could make the strip.
+    bool add_strip(std::span<const VertexId> lower, std::span<const VertexId> top) {
+        if (strips_.cut(lower, top, first_leads_, cells_.triangles)) return true;
+        corners_.assign(top.begin(), top.end());
+        corners_.insert(corners_.end(), lower.rbegin(), lower.rend());
+        add_polygon();
+        return false;
+    }
+
+    /// Adds the triangle at the top of a column where one ray has a layer more, together with the cell below. Alone it
+    /// could only be fanned from one corner, with ever flatter triangles. The lower chain has one corner more on the
+    /// higher ray:
+    ///
+    ///              .-b = q0      lower chain a' a d; with the higher ray on the other side, a d d'
+    ///          q1-'   |
+    ///      q2-'       |
+    ///    c-'----------a'
+    ///    |            |
+    ///    d------------a
+    void add_divided_step(const CellColumn& column, std::uint32_t common) {
+        const Ray &first = column.first, &second = column.second;
+        corners_.clear();
+        if (first.layers > common) corners_.push_back(first.vertex(common));
+        corners_.push_back(first.vertex(common - 1));
+        if (second.vertex(common - 1) != corners_.back()) corners_.push_back(second.vertex(common - 1));
+        if (second.layers > common) corners_.push_back(second.vertex(common));
+        const std::vector<VertexId> lower = corners_;
+        add_divided_cell(lower, column.top, {first.vertex(common - 1), second.vertex(common - 1)}, common);
+    }
+
+    /// Adds the cells of the first layer in a sharp corner of the wall that has no ray. The triangles on the edges of
+    /// the wall beside both rays have the first height, and that at the corner has its angle (docs/layer.md).
+    /// Where no first layer fits between its sides, more of the wall's vertices have no rays, and triangles go from
+    /// side to side.
+    ///
+    ///     d____        wall d e a; without the first layer on one of the rays, its origin is the end of the top
+    ///     |    \___ c
+    ///     e--.     |
+    ///         `--. b
+    ///             a
+    void add_cell_at_corner(const CellColumn& column, std::span<const VertexId> top) {
+        const std::vector<VertexId>& corner = column.first.corner_after;
+        const VertexId a = column.second.origin, d = column.first.origin;
+        if (d != top.front()) cells_.triangles.push_back({{corner.front(), d, top.front()}});
+        // Both chains go from the top to the corner.
+        const auto middle = corner.begin() + static_cast<std::ptrdiff_t>(corner.size() / 2) + 1;
+        std::vector<VertexId> lower(top.rbegin() + 1, top.rend()), upper{top.back()};
+        lower.insert(lower.end(), corner.begin(), middle);
+        upper.insert(upper.end(), std::make_reverse_iterator(corner.end()), std::make_reverse_iterator(middle));
+        add_strip(lower, upper);
+        if (a != top.back()) cells_.triangles.push_back({{corner.back(), top.back(), a}});
+    }
+
+    /// Adds the lowest cell of a column beside an empty one. The border divides its sides, too.
+    ///
+    ///     c---q---b
+    ///      \     |         the first ray is the end of a fan whose other rays have no layers
+    ///       \    q
+    ///        \   |
+    ///         d--a
+    void add_cell_between_borders(const CellColumn& column, std::span<const VertexId> top) {
+        corners_.clear();
+        const auto append = [&](VertexId v) {
+            if (corners_.empty() || corners_.back() != v) corners_.push_back(v);
+        };
+        append(column.first.origin);
+        std::for_each(column.up.begin(), column.up.end(), append);
+        std::for_each(top.begin(), top.end(), append);
+        std::for_each(column.down.begin(), column.down.end(), append);
+        append(column.second.origin);
+        if (corners_.back() == corners_.front()) corners_.pop_back();
+        add_polygon();
+    }
+
+    /// Adds the constrained Delaunay triangles of the polygon corners_. It is counter-clockwise and may have a corner
+    /// twice in a row.
+    void add_polygon() {
+        corners_.erase(std::unique(corners_.begin(), corners_.end()), corners_.end());
+        std::vector<Point> corners;
+        std::vector<Segment> sides;
+        for (std::size_t i = 0; i < corners_.size(); ++i) {
+            corners.push_back(at(corners_[i]));
+            sides.push_back({VertexId(i), VertexId((i + 1) % corners_.size())});
+        }
+        const auto inside = triangulate(corners, sides, {.keep = KeptRegion::left_of_segments});
+        assert(inside.triangles.size() + 2 == corners.size());
+        for (const Triangle& t : inside.triangles)
+            cells_.triangles.push_back(
+                {{corners_[t.v[0].index()], corners_[t.v[1].index()], corners_[t.v[2].index()]}});
+    }
+};
+
+/// Returns one list of the cells of all blocks, in the order of the blocks.
+template <class Item>
+std::vector<Item> joined(const std::vector<LayerCells>& blocks, std::vector<Item> LayerCells::*items) {
+    std::vector<std::size_t> first{0};
+    for (const LayerCells& block : blocks) first.push_back(first.back() + (block.*items).size());
+    std::vector<Item> all(first.back());
+    core::parallel_for(blocks.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            std::copy((blocks[i].*items).begin(), (blocks[i].*items).end(),
+                      all.begin() + static_cast<std::ptrdiff_t>(first[i]));
+    });
+    return all;
+}
+
+}  // namespace
+
+LayerCells connect_layer(const Layer& layer, GridCells form) {
+    std::vector<LayerCells> blocks;
+    std::size_t first_ray = 0;  // of the element, among the rays of all
+    for (std::size_t e = 0; e < layer.rays.size(); first_ray += layer.rays[e].size(), ++e) {
+        if (layer.rays[e].empty()) continue;
+        const CellColumns columns(layer, e);
+        const auto connect = [&](std::size_t begin, std::size_t end) {
+            Connector connector(layer, form);
+            for (std::size_t i = begin; i < end; ++i) {
+                connector.add(columns[i]);
+                connector.number_column(static_cast<std::uint32_t>(first_ray + i));
+            }
+            return connector.take();
+        };
+        for (LayerCells& block : core::parallel_blocks(columns.size(), columns_per_block, connect))
+            blocks.push_back(std::move(block));
+    }
+    const auto add_part = [&](const auto& part) {
+        Connector connector(layer, form);
+        connector.add(part);
+        connector.number_column(LayerCells::no_column);
+        blocks.push_back(connector.take());
+    };
+    for (const LayerCore& core : layer.cores) add_part(core);
+    for (const LayerCleft& cleft : layer.clefts) add_part(cleft);
+    LayerCells cells;
+    cells.triangles = joined(blocks, &LayerCells::triangles);
+    cells.quads = joined(blocks, &LayerCells::quads);
+    cells.triangle_layer = joined(blocks, &LayerCells::triangle_layer);
+    cells.quad_layer = joined(blocks, &LayerCells::quad_layer);
+    cells.triangle_column = joined(blocks, &LayerCells::triangle_column);
+    cells.quad_column = joined(blocks, &LayerCells::quad_column);
+    return cells;
+}
 
 // The outer border cut into the stretches between the tips of neighbouring rays.
 

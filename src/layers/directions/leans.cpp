@@ -1,16 +1,171 @@
 #include "layers/directions/leans.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "core/angles.hpp"
 #include "core/reproducible_math.hpp"
 #include "core/rounding.hpp"
 #include "layers/directions/corners.hpp"
-#include "layers/directions/lean_chain.hpp"
 #include "layers/parameters.hpp"
 
 namespace lamina::layers {
+
+namespace {
+
+/// The gradient and the Hessian of half the function at some leans. Leans that are held at a bound have a row of the identity.
+struct Derivatives {
+    std::vector<double> gradient, diagonal;
+    std::vector<double> beside;    ///< entry k of the Hessian is that of rays k and k + 1
+    std::vector<char> conditions;  ///< which terms of the columns count, and which leans are held
+
+    explicit Derivatives(std::size_t n) : gradient(n), diagonal(n), beside(n), conditions(2 * n) {}
+};
+
+/// Half of the function that is minimised.
+class Chain {
+public:
+    Chain(std::span<const ColumnLack> lacks, std::span<const LeanBounds> bounds, double weight, double stiffness)
+        : lacks_(lacks), bounds_(bounds), weight_(weight), stiffness_(stiffness) {}
+
+    std::size_t size() const { return lacks_.size(); }
+    double clamped(std::size_t i, double lean) const { return std::clamp(lean, bounds_[i].least, bounds_[i].most); }
+
+    double value(std::span<const double> leans) const {
+        double sum = 0;
+        for (std::size_t k = 0; k < size(); ++k) {
+            const ColumnLack left = lack_left(leans, k);
+            sum += 0.5 * (weight_ * positive_square(left.wanted) + positive_square(left.least) +
+                          stiffness_ * leans[k] * leans[k]);
+        }
+        return sum;
+    }
+
+    void set_derivatives(std::span<const double> leans, Derivatives& d) const {
+        for (std::size_t k = 0; k < size(); ++k) {
+            d.gradient[k] = stiffness_ * leans[k];
+            d.diagonal[k] = stiffness_;
+        }
+        for (std::size_t k = 0; k < size(); ++k) {
+            const ColumnLack left = lack_left(leans, k);
+            const double pull = weight_ * std::max(left.wanted, 0.0) + std::max(left.least, 0.0);
+            const double curvature = (left.wanted > 0 ? weight_ : 0) + (left.least > 0 ? 1 : 0);
+            d.conditions[k] = static_cast<char>((left.wanted > 0 ? 1 : 0) + (left.least > 0 ? 2 : 0));
+            d.gradient[k] += pull;
+            d.gradient[next(k)] -= pull;
+            d.diagonal[k] += curvature;
+            d.diagonal[next(k)] += curvature;
+            d.beside[k] = -curvature;
+        }
+        for (std::size_t k = 0; k < size(); ++k) {
+            d.conditions[size() + k] = is_held(leans[k], d.gradient[k], bounds_[k]);
+            if (!d.conditions[size() + k]) continue;
+            d.gradient[k] = 0;
+            d.diagonal[k] = 1;
+            d.beside[k] = d.beside[k > 0 ? k - 1 : size() - 1] = 0;
+        }
+    }
+
+    /// Returns how far the gradient would take a lean that is free to move.
+    double residual(std::span<const double> leans, const Derivatives& d) const {
+        double largest = 0;
+        for (std::size_t k = 0; k < size(); ++k)
+            largest = std::max(largest, std::abs(clamped(k, leans[k] - d.gradient[k]) - leans[k]));
+        return largest;
+    }
+
+private:
+    std::span<const ColumnLack> lacks_;
+    std::span<const LeanBounds> bounds_;
+    double weight_, stiffness_;
+
+    std::size_t next(std::size_t k) const { return k + 1 < size() ? k + 1 : 0; }
+    ColumnLack lack_left(std::span<const double> leans, std::size_t k) const {
+        const double opening = leans[next(k)] - leans[k];
+        return {lacks_[k].wanted - opening, lacks_[k].least - opening};
+    }
+    static double positive_square(double x) { return x > 0 ? x * x : 0; }
+    /// Returns whether a lean stays at a bound, beyond which the function falls.
+    static bool is_held(double lean, double gradient, const LeanBounds& bounds) {
+        return (lean <= bounds.least && gradient >= 0) || (lean >= bounds.most && gradient <= 0);
+    }
+};
+
+/// Solves the tridiagonal system T x = right by elimination.
+void solve_tridiagonal(std::span<const double> diagonal, std::span<const double> beside, std::span<double> x) {
+    std::vector<double> pivots(diagonal.begin(), diagonal.end());
+    for (std::size_t i = 1; i < x.size(); ++i) {
+        const double factor = beside[i - 1] / pivots[i - 1];
+        pivots[i] -= factor * beside[i - 1];
+        x[i] -= factor * x[i - 1];
+    }
+    for (std::size_t i = x.size(); i-- > 0;) {
+        if (i + 1 < x.size()) x[i] -= beside[i] * x[i + 1];
+        x[i] /= pivots[i];
+    }
+}
+
+/// Solves the cyclic tridiagonal system, which is positive definite. The last unknown is a border:
+///
+///     | T   v | | x |   | b |
+///     | v^T d | | y | = | c |      y = (c - v^T T^-1 b) / (d - v^T T^-1 v),  x = T^-1 b - y T^-1 v
+///
+std::vector<double> solve_cyclic(const Derivatives& d) {
+    const std::size_t m = d.diagonal.size() - 1;
+    std::vector<double> x = d.gradient, border(m, 0.0);
+    border[0] = d.beside[m];
+    border[m - 1] = d.beside[m - 1];
+    const std::span<const double> diagonal = std::span(d.diagonal).first(m);
+    solve_tridiagonal(diagonal, d.beside, std::span(x).first(m));
+    solve_tridiagonal(diagonal, d.beside, border);
+    const auto times_border = [&](const std::vector<double>& values) {
+        return d.beside[m] * values[0] + d.beside[m - 1] * values[m - 1];
+    };
+    x[m] = (d.gradient[m] - times_border(x)) / (d.diagonal[m] - times_border(border));
+    for (std::size_t i = 0; i < m; ++i) x[i] -= x[m] * border[i];
+    return x;
+}
+
+}  // namespace
+
+ChainLeans minimise_leans(std::span<const ColumnLack> lacks, std::span<const LeanBounds> bounds, double weight,
+                          double stiffness) {
+    assert(lacks.size() >= 3 && lacks.size() == bounds.size() && weight > 0 && stiffness > 0);
+    constexpr std::size_t max_steps = 200;    // each lowers the function; outlines of thousands of corners take 20
+    constexpr double sufficient = 1e-4;       // share of the decrease that the gradient promises (Armijo)
+    constexpr double shortest = 1e-9;         // of a step
+    constexpr double least_residual = 1e-14;  // of leans, and of the function
+    const Chain chain(lacks, bounds, weight, stiffness);
+    const std::size_t n = chain.size();
+    ChainLeans result{std::vector<double>(n), 0};
+    for (std::size_t i = 0; i < n; ++i) result.leans[i] = chain.clamped(i, 0);
+    Derivatives here(n), there(n);
+    std::vector<double> trial(n);
+    double value = chain.value(result.leans);
+    chain.set_derivatives(result.leans, here);
+    for (; result.steps < max_steps; ++result.steps) {
+        if (chain.residual(result.leans, here) < least_residual) break;
+        const std::vector<double> step = solve_cyclic(here);
+        double share = 1, lower = value;
+        for (; share > shortest; share *= 0.5) {
+            double promised = 0;
+            for (std::size_t i = 0; i < n; ++i) {
+                trial[i] = chain.clamped(i, result.leans[i] - share * step[i]);
+                promised += here.gradient[i] * (result.leans[i] - trial[i]);
+            }
+            lower = chain.value(trial);
+            if (lower <= value - sufficient * promised + least_residual * value) break;
+        }
+        if (share <= shortest) break;
+        result.leans.swap(trial);
+        value = lower;
+        chain.set_derivatives(result.leans, there);
+        if (share == 1 && there.conditions == here.conditions) break;
+        std::swap(here, there);
+    }
+    return result;
+}
 
 namespace {
 

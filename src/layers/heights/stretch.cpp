@@ -20,7 +20,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
 
+#include "core/predicates.hpp"
+#include "core/reproducible_math.hpp"
+#include "layers/layered_rays.hpp"
+#include "layers/mechanisms.hpp"
+#include "layers/parameters.hpp"
 #include "layers/stages.hpp"
 
 namespace lamina::layers {
@@ -123,6 +131,186 @@ double stretched_last_spacing(double height, std::span<const double> heights, st
     double spacing = heights[n] - heights[n - 1];
     for (std::uint32_t k = stretch.above; stretch.factor != 1 && k < n; ++k) spacing *= stretch.factor;
     return spacing;
+}
+
+// Columns at sharp edges and bases are narrow up to the front, where triangles begin that are as small as columns are
+// wide. Numbers of layers change little there (numbers.cpp), so that last layers are higher than columns are
+// wide. They are made lower at the expense of those in the middle of the column:
+//
+//      |___|        |___|  <- front, as before
+//      |   |        |___|
+//      |   |        |   |
+//      |___|        |___|      Left: layers of equal heights. Right: the last one has half of its height, and those
+//      |   |        |   |      in the middle are a sixth higher. The number of layers is the same, and so is the front.
+//      |   |        |   |
+//      |___|        |   |
+//      |   |        |___|
+//
+// The stretch of the column gets a second number, so that its end and its last spacing are both met. Where columns are far
+// wider than their last layers are high, these become higher. Source: M. Vinokur, J. Comput. Phys. 50 (1983): stretching
+// functions with prescribed spacings at both ends. docs/layer.md.
+
+namespace {
+
+/// Returns the layer above which the heights of a column with n layers may change.
+std::uint32_t fixed_layers(const HeightColumn& column, std::uint32_t n) {
+    return column.stretch.above > 0 ? column.stretch.above : last_unstretched(n);
+}
+
+/// Returns the least ratio of a last layer of this height, as a share of the part that changes: with a smaller one the layer
+/// below would be more than three times as high.
+double least_ratio(double last) { return last * (2 - last); }
+
+/// The ratio to which the last spacing of a ray should be changed, and to which it may be: logarithms.
+struct LogRatios {
+    double part = 0;                 ///< length of the part of the column that changes
+    double wanted = 0;               ///< with it the last layer is no higher than wanted
+    double least = -HUGE_VAL;        ///< below it the last layer would be too low
+    double most = HUGE_VAL;          ///< above it the last layer would be too high for the triangles beyond
+    double lowest = 0, highest = 0;  ///< what the column has room for, whatever its neighbours want
+};
+
+/// Returns the height along a ray up to which a layer with this edge at its end has the area of a square on the edge. It
+/// is the length of the edge, and more where the ray leans:
+///
+///        ._______.
+///       /       /      edge * edge = height * (distance of the edge's other end from the ray)
+///      /_______/
+double height_of_square(Point edge, Point direction, double lowest_sine) {
+    const double width = length(edge);
+    const double across = std::max(std::abs(cross(edge, direction)), lowest_sine * width);
+    return across > 0 ? width * width / across : 0;
+}
+
+/// Returns the ratios for a ray between these two others.
+LogRatios log_ratios(const LayeredRays& rays, std::size_t before, std::size_t ray, std::size_t after, bool quads) {
+    const std::uint32_t n = rays.counts[ray], least_beside = std::min(rays.counts[before], rays.counts[after]);
+    const std::uint32_t fixed = fixed_layers(rays.heights.column(ray), n);
+    if (n <= fixed || least_beside == 0) return {};
+    const std::span<const double> heights = rays.heights.of(ray);
+    const double last = rays.last_spacing(ray), part = heights[n] - heights[fixed];
+    const Point tip = rays.tip(ray), direction = rays.set.lines[ray].direction;
+    const double sine = quads ? sine_of_upright : least_sine;
+    const double square = std::sqrt(height_of_square(rays.tip(before) - tip, direction, sine) *
+                                    height_of_square(rays.tip(after) - tip, direction, sine));
+    if (last > max_last_share * part || !(square > 0)) return {};
+    const bool changes = rays.counts[before] != n || rays.counts[after] != n;
+    const double to_square = core::log_reproducible(square / last),
+                 lowest = core::log_reproducible(least_ratio(last / part));
+    const double least = core::log_reproducible(changes && !quads ? even_tallness : least_tallness);
+    return {.part = part,
+            .wanted = std::clamp(core::log_reproducible(wanted_tallness) + to_square, lowest, 0.0),
+            .least = least + to_square,
+            .most = to_square,
+            .lowest = lowest,
+            .highest = core::log_reproducible(std::min(max_end_ratio, max_last_share * part / last))};
+}
+
+/// Returns the ratio of each ray. quads: whether cells are quadrilaterals.
+std::vector<double> end_ratios(const LayeredRays& rays, bool quads) {
+    const RayNeighbours neighbours(rays.set);
+    std::vector<LogRatios> bounds;
+    std::vector<double> wanted, most, least;  // the latter negative, so that lowering it raises the bound
+    for (std::size_t i = 0; i < rays.counts.size(); ++i) {
+        bounds.push_back(log_ratios(rays, neighbours.previous[i], i, neighbours.next[i], quads));
+        wanted.push_back(bounds.back().wanted);
+        most.push_back(bounds.back().most);
+        least.push_back(-std::min(bounds.back().least, bounds.back().highest));
+    }
+    // All lead over to the neighbours, so that no ratio jumps where one of them gives way to another.
+    for (std::vector<double>* values : {&wanted, &most, &least})
+        lower_to_neighbours(rays.set, *values, [&](std::size_t from, std::size_t to) {
+            const double part = std::max(bounds[from].part, bounds[to].part);
+            if (!(part > 0)) return HUGE_VAL;
+            return (*values)[from] + most_rise * distance(rays.tip(from), rays.tip(to)) / (most_moved * part);
+        });
+    std::vector<double> ratios;
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+        // Low cells of wide columns may not make cells of narrow ones too high.
+        const double ratio = std::max(wanted[i], std::min(-least[i], most[i]));
+        ratios.push_back(core::exp_reproducible(std::clamp(ratio, bounds[i].lowest, bounds[i].highest)));
+    }
+    return ratios;
+}
+
+/// Returns heights of which the last layer of each column, up to its number of layers, has this ratio to what it was.
+LayerHeights with_end_ratios(const LayerHeights& heights, std::span<const std::uint32_t> counts,
+                             std::span<const double> ratios) {
+    std::vector<double> table = heights.table();
+    std::vector<HeightColumn> columns;
+    columns.reserve(ratios.size());
+    for (std::size_t ray = 0; ray < ratios.size(); ++ray) {
+        HeightColumn& column = columns.emplace_back(heights.column(ray));
+        if (ratios[ray] == 1) continue;
+        const std::span<double> of_ray = std::span(table).subspan(column.first, counts[ray] + std::size_t{1});
+        const Stretch stretch = stretch_to_last_spacing(ratios[ray], of_ray, fixed_layers(column, counts[ray]));
+        const double end = of_ray.back();
+        stretch_heights(stretch, of_ray);
+        of_ray.back() = end;  // rounding moves no front
+        column.stretch = {column.stretch.factor * stretch.factor, stretch.change, stretch.above};
+    }
+    return LayerHeights(std::move(table), std::move(columns));
+}
+
+/// Returns whether a cell between two rays is crossed.
+bool has_crossed_cell(const LayeredRays& rays, std::size_t i, std::size_t j) {
+    const std::uint32_t common = std::min(rays.counts[i], rays.counts[j]);
+    for (std::uint32_t n = 2; n <= common; ++n) {
+        const Point a = rays.point(i, n - 1), b = rays.point(i, n), c = rays.point(j, n), d = rays.point(j, n - 1);
+        if (!core::is_convex(a, b, c, d)) return true;
+    }
+    if (common == 0 || rays.counts[i] == rays.counts[j]) return false;
+    const Point top = rays.point(rays.counts[i] > common ? i : j, common + 1);
+    return !(core::inline_orient2d(rays.point(i, common), top, rays.point(j, common)) > 0);
+}
+
+/// Leaves the columns on both sides of crossed cells as they were: rows rise most where a column is narrower than at the
+/// front. Columns as they were have no such cells. Returns whether there were any.
+bool leave_crossed_columns(const LayeredRays& rays, std::vector<double>& ratios) {
+    const std::vector<std::size_t> next = rays.set.following();
+    std::vector<std::size_t> crossed;
+    for (std::size_t i = 0; i < next.size(); ++i)
+        if ((ratios[i] != 1 || ratios[next[i]] != 1) && has_crossed_cell(rays, i, next[i])) crossed.push_back(i);
+    for (const std::size_t i : crossed) ratios[i] = ratios[next[i]] = 1;
+    return !crossed.empty();
+}
+
+}  // namespace
+
+// With the last ratio e^c given, the ratio of a layer at the share x of the stretched part is
+// exp(a (x - x^2) + c x^2): a product of factors that change by one more factor from layer to layer. The end of the column
+// rises with a, and ever faster, so that Newton's method ends.
+Stretch stretch_to_last_spacing(double ratio, std::span<const double> heights, std::uint32_t above) {
+    constexpr int max_steps = 40;
+    const auto layers = static_cast<double>(heights.size() - 1 - above);
+    const double c = core::log_reproducible(ratio);
+    Stretch stretch{1, 1, above};
+    double a = c;
+    for (int step = 0; step < max_steps; ++step) {
+        stretch.factor = core::exp_reproducible((a + (c - a) / layers) / layers);
+        stretch.change = core::exp_reproducible(2 * (c - a) / (layers * layers));
+        double change_of_end = 0, slope = 0, product = 1, factor = stretch.factor;
+        for (std::size_t n = above + std::size_t{1}; n < heights.size(); ++n) {
+            product *= factor;
+            factor *= stretch.change;
+            const double x = static_cast<double>(n - above) / layers, spacing = heights[n] - heights[n - 1];
+            change_of_end += (product - 1) * spacing;
+            slope += product * spacing * x * (1 - x);
+        }
+        const double change = std::clamp(change_of_end / slope, -1.0, 1.0);
+        if (std::abs(change) < 1e-13) break;
+        a -= change;
+    }
+    return stretch;
+}
+
+void fit_end_spacings(Rays& rays) {
+    if (rays.growth.layers || !uses("end_spacings")) return;
+    const LayerHeights before = rays.heights;
+    std::vector<double> ratios = end_ratios(layered_rays(rays), rays.topology == LayerTopology::quads);
+    do {
+        rays.heights = with_end_ratios(before, rays.counts, ratios);
+    } while (leave_crossed_columns(layered_rays(rays), ratios));
 }
 
 }  // namespace lamina::layers

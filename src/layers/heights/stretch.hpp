@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 
+#include "layers/parameters.hpp"
 #include "layers/stages.hpp"
 
 namespace lamina::layers {
@@ -41,5 +42,15 @@ Stretch stretch_of_layers(double height, std::span<const double> heights, std::u
 
 /// Returns the height of the topmost of n layers with that stretch.
 double stretched_last_spacing(double height, std::span<const double> heights, std::uint32_t n);
+
+// The heights of last layers, made to match the triangles beyond.
+
+/// Returns the stretch, above this layer, with which the last layer of a column becomes `ratio` times as high and the column
+/// keeps its end. heights[0] = 0 is the wall. Precondition: at least two layers lie above `above`.
+Stretch stretch_to_last_spacing(double ratio, std::span<const double> heights, std::uint32_t above);
+
+/// Changes the last layers of columns that are far higher or lower than the front's edges beside them are long, and those
+/// beside them a little. Columns with a requested number of layers keep their heights.
+void fit_end_spacings(Rays& rays);
 
 }  // namespace lamina::layers
