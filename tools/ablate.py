@@ -37,6 +37,7 @@ FIGURES = {
     "area ratio 99 %": -1,
     "first heights off": -1,
     "uneven columns": -1,
+    "largest step": -1,
     "smallest isotropic angle": 1,
     "isotropic angle 1 %": 1,
     "non-orthogonality": -1,
@@ -163,6 +164,7 @@ def mesh(program, files, options, without):
             "area ratio 99 %": transition["p99_area_ratio"],
             "first heights off": walls["first_cells"] * (1 - walls["share_of_kept_heights"]),
             "uneven columns": layer["border"]["uneven_columns"],
+            "largest step": layer["border"]["max_step"],
             "smallest isotropic angle": isotropic["min_angle_deg"],
             "isotropic angle 1 %": first_percentile(isotropic["angle_histogram"]),
         } | (faces_of_quads(out) if "quads" in options else {})
