@@ -13,7 +13,6 @@
 #include "core/angles.hpp"
 #include "core/parallel.hpp"
 #include "layers/cells/fill.hpp"
-#include "layers/cells/fill.hpp"
 #include "layers/cells/strip.hpp"
 #include "layers/expect_cover.hpp"
 #include "support/layers.hpp"
