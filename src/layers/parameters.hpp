@@ -18,7 +18,7 @@ inline constexpr double ray_fraction = 0.45;
 
 /// First layers may go beyond the limit by this factor, up to 0.75 of that height, so that walls in clefts are not bare.
 /// Neighbours keep a quarter of their distance. Below an opposite wall they may not.
-inline constexpr double first_layer_room = 0.75 / ray_fraction;
+inline constexpr double first_layer_room = 2 * wall_fraction / ray_fraction;
 
 /// Distance of the rays of a sample that looks for what is in the way, as a share of the largest height of the scale.
 inline constexpr double sample_spacing = 0.1;
@@ -52,9 +52,13 @@ inline constexpr double most_fan_lean_deg = 25, most_given_share = 0.3;
 /// the largest angle from the normals of both edges: cells in all rows at the wall are as skewed as that.
 inline constexpr double most_lean_deg = 45, most_lean_from_normals_deg = 57;
 
+/// Cells have no larger angles than this, in degrees, where anything can be done about it: columns end below them, and clefts that
+/// would need them stay open.
+inline constexpr double largest_layer_angle_deg = 150;
+
 /// Sharp concave corners without a ray: walls meet at this angle or less, in degrees. Half of it is what is left to 180 degrees in
 /// the cells beside a ray.
-inline constexpr double largest_sharp_deg = 60;
+inline constexpr double largest_sharp_deg = 2 * (180 - largest_layer_angle_deg);
 
 /// First heights along a wall that are given point by point differ by this factor at most from vertex to vertex.
 inline constexpr double max_first_height_ratio = 1.1;
@@ -63,7 +67,7 @@ inline constexpr double max_first_height_ratio = 1.1;
 inline constexpr double kept_difference = 0.009;
 
 /// The turning of a wall, in degrees, up to which the ray of a vertex is not shifted. It leans no farther then than its first height
-/// allows (kept_difference).
+/// allows (kept_difference). With 0, triangles beyond the layers of a slit of 3 degrees miss their bound.
 inline constexpr double max_smooth_turning_deg = 1;
 
 /// Largest shift, as a share of the shorter edge at the corner: far from what would make cells cross each other.
@@ -146,9 +150,6 @@ inline constexpr double whole_top = std::numbers::sqrt2;
 /// A cleft ends where the gap between the fronts is this many times as wide as their edges are long.
 inline constexpr double open_gap = 2.0;
 
-/// Triangles of the strip that closes a cleft have no angle above this, in degrees.
-inline constexpr double max_cleft_angle_deg = 150;
-
 /// Distances from the corner count as equal up to this ratio.
 inline constexpr double equal_distance_ratio = 1.1;
 
@@ -168,21 +169,11 @@ inline constexpr double opening_per_height = 0.65;
 /// The first height opens until this many layers of equal height would fill the height that is needed.
 inline constexpr double layers_when_open = 12;
 
-/// The last edge of a wake is this many times as long as the first layer there is high, so that fronts fall no faster
-/// than they may. The edges before are longer by this ratio, one after the other, as the border's edges may be.
-inline constexpr double last_wake_edge = 4.2, last_wake_edge_ratio = 1.09;
-
 /// The sides of a wake meet this many times the width of the base behind it.
 inline constexpr double core_length = 4;
 
 /// A base so wide that they would meet beyond this share of the wake gets none.
-inline constexpr double max_core_share = 0.1;
-
-/// The next chain behind a base follows by the law where that makes a strip lower than this share of an edge of the wake.
-inline constexpr double max_layer_share = 0.7;
-
-/// The last station behind a base is at least this share of an edge before the end.
-inline constexpr double min_last_share = 0.6;
+inline constexpr double max_core_share = 0.5;
 
 /// The outermost cells between stations are this many first heights wide, like the first cells on the other side of the
 /// wake; each one further in is wider by the ratio. Wide cells beside the first ones made a flow solver diverge.

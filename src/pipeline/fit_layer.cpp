@@ -13,6 +13,7 @@
 #include "decoupling/far_field.hpp"
 #include "geometry/symmetry.hpp"
 #include "layers/mechanisms.hpp"
+#include "layers/parameters.hpp"
 #include "layers/stages.hpp"
 #include "pipeline/derived_options.hpp"
 #include "pipeline/row_border.hpp"
@@ -254,7 +255,7 @@ bool end_obtuse_columns(LayerTopology topology, const DecompositionOptions& deco
     const auto obtuse_cells_of = [&](const layers::Rays& rays) {
         const layers::Layer layer =
             layers::close_border(rays, border_with_sources(fitted.border, fitted.requests.at_borders));
-        return layers::obtuse_cells(layer, fill_layer(layer, topology, decomposition), largest_layer_angle_deg);
+        return layers::obtuse_cells(layer, fill_layer(layer, topology, decomposition), layers::largest_layer_angle_deg);
     };
     std::vector<layers::ObtuseCell> fewest = obtuse_cells_of(fitted.rays);
     bool is_changed = false;

@@ -43,9 +43,6 @@ struct FittedLayer {
     std::vector<SizeSource> short_edges{};  ///< further sizes for the edges of borders
 };
 
-/// Columns end below cells of the layer with larger angles than this, and `large_angle` warns of those that are left.
-inline constexpr double largest_layer_angle_deg = 150;
-
 /// Makes rays on these walls. Walls become finer where the layer's border would be divided, and columns end below cells with
 /// angles above 150 degrees. Behind the layers that go on along a wake, its sources request sizes. Throws OptionError
 /// where layers do not fit into the far field.

@@ -11,12 +11,12 @@
 
 #include "core/cell_shape.hpp"
 #include "layers/growth_laws.hpp"
+#include "layers/parameters.hpp"
 #include "mesh/cell_middle.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/walls.hpp"
 #include "pipeline/area_jumps.hpp"
 #include "pipeline/assemble.hpp"
-#include "pipeline/fit_layer.hpp"
 #include "pipeline/reynolds_doubt.hpp"
 
 namespace lamina::pipeline {
@@ -262,7 +262,7 @@ void warn_of_large_angles(const MeshResult& result, const WorstPlaces& worst, co
                                                    quality.max_angle_deg, place_text(at))});
     };
     if (exceeds(result.check.isotropic, max_isotropic)) warn(result.check.isotropic, worst.widest, "outside the layer");
-    if (exceeds(result.check.layer, largest_layer_angle_deg))
+    if (exceeds(result.check.layer, layers::largest_layer_angle_deg))
         warn(result.check.layer,
              worst_place(layer, Region::layer, [&](std::size_t cell) { return shape_of(layer, cell).max_angle_deg; }),
              "of the layer");

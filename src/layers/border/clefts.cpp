@@ -120,7 +120,7 @@ private:
                        const Point at = strip.corner(t, k);
                        return core::angle_between(strip.corner(t, k + 1) - at, strip.corner(t, k + 2) - at);
                    };
-                   return std::max({angle_at(0), angle_at(1), angle_at(2)}) <= core::radians(max_cleft_angle_deg);
+                   return std::max({angle_at(0), angle_at(1), angle_at(2)}) <= core::radians(largest_layer_angle_deg);
                });
     }
 

@@ -121,13 +121,13 @@ private:
     }
 
     /// Returns the distances from the end at which the wedge has its vertices, descending. Its first edges are about as
-    /// long as this one.
+    /// long as this one, its last so long that fronts fall no faster than they may.
     std::vector<double> distances_to_end(double edge) const {
         std::vector<double> distances;
-        double length = last_wake_edge * opening_ * layer_height(growth_, 1), at = 0;
+        double length = opening_ * layer_height(growth_, 1) / max_front_slope, at = 0;
         do {
             distances.push_back(at += length);
-            length *= last_wake_edge_ratio;
+            length *= wake_edge_ratio;
         } while (length < edge);
         std::reverse(distances.begin(), distances.end());
         return distances;
@@ -357,11 +357,11 @@ std::vector<ChainPlace> place_chains(double depth, double edge, double ratio, co
         const double above = layer_height(growth, n);
         const double strip = above - of_law;
         // Half a strip before the first station, or more, so that the strip below it is no thinner than the last layer.
-        if (strip >= max_layer_share * edge || above + 0.5 * strip >= edge) break;
+        if (above + 0.5 * strip >= edge) break;
         places.push_back({above, strip, false});
         of_law = above;
     }
-    for (double height = edge; height <= depth - min_last_share * edge; height += edge) {
+    for (double height = edge; height <= depth - 0.5 * edge; height += edge) {
         places.push_back({height, edge, true});
         edge *= ratio;
     }
