@@ -75,16 +75,8 @@ std::vector<double> adaptive_ratios(const RaySet& set, const LayerGrowth& growth
     return ratios_to_isotropy(set, growth.first_height, *growth.layers);
 }
 
-double expected_adaptive_ratio(const LayerGrowth& growth, double spacing) {
-    if (*growth.layers < 2) return growth.growth;  // no ratio matters
-    return std::clamp(core::pow_reproducible(spacing / growth.first_height, 1.0 / (*growth.layers - 1)),
-                      min_adaptive_ratio, max_adaptive_ratio);
-}
-
-constexpr GrowthBySpacing adaptive_growth{.min_growth = min_adaptive_ratio,
-                                          .max_growth = max_adaptive_ratio,
-                                          .on_rays = adaptive_ratios,
-                                          .expected = expected_adaptive_ratio};
+constexpr GrowthBySpacing adaptive_growth{
+    .min_growth = min_adaptive_ratio, .max_growth = max_adaptive_ratio, .on_rays = adaptive_ratios};
 
 constexpr GrowthLawEntry growth_laws[] = {
     {.law = GrowthLaw::geometric,

@@ -18,8 +18,6 @@ struct GrowthBySpacing {
     double min_growth, max_growth;  ///< bounds of Ray::growth
     /// Returns the growth of each ray.
     std::vector<double> (*on_rays)(const RaySet& set, const LayerGrowth& growth);
-    /// Returns an estimate of the growth over a wall whose vertices lie `spacing` apart.
-    double (*expected)(const LayerGrowth& growth, double spacing);
 };
 
 /// A row of the table: all that distinguishes one law from the others.

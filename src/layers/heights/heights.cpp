@@ -340,17 +340,6 @@ std::vector<double> first_heights_along(const RaySet& set, const LayerGrowth& gr
     return heights;
 }
 
-double expected_height(const LayerGrowth& growth, double spacing) {
-    const GrowthLawEntry& law = growth_law_entry(growth.law);
-    const auto layers = growth.layers.value_or(max_automatic_layers);
-    const double ray_growth = law.by_spacing ? law.by_spacing->expected(growth, spacing) : law.ray_growth(growth);
-    const std::vector<double> heights = law.heights(growth.first_height, ray_growth, layers);
-    std::size_t n = heights.size() - 1;
-    if (!growth.layers)
-        for (n = 1; n < layers && heights[n] - heights[n - 1] < spacing;) ++n;
-    return std::min(heights[n], growth.thickness.value_or(HUGE_VAL));
-}
-
 std::vector<double> asked_heights(const RaySet& set, const LayerGrowth& growth) {
     std::vector<double> asked;
     asked.reserve(set.lines.size());

@@ -32,10 +32,6 @@ void set_first_heights(std::span<const double> heights, std::span<const Point> w
 /// trailing edge keep their own.
 std::vector<double> least_heights(const RaySet& set);
 
-/// Returns the height of all requested layers over a wall whose vertices lie `spacing` apart. It is an estimate where
-/// the number of layers or the growth depends on the spacing.
-double expected_height(const LayerGrowth& growth, double spacing);
-
 /// Sets the slants of rays: RayLine::slant.
 void set_slants(RaySet& set);
 

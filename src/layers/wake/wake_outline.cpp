@@ -212,10 +212,6 @@ bool lies_on_edge(const DividedWake& wake, Point p) {
 
 }  // namespace
 
-bool has_wake(std::span<const RayVertex> outline) {
-    return std::any_of(outline.begin(), outline.end(), [](const RayVertex& v) { return v.place != RayPlace::wall; });
-}
-
 std::vector<DividedWake> divide_wakes(const Geometry& geometry, const LayerGrowth& growth,
                                       std::span<const double> ends) {
     std::vector<DividedWake> wakes;

@@ -20,9 +20,6 @@ struct RayVertex {
     std::vector<Point> corner_after{};  ///< RayLine::corner_after
 };
 
-/// Returns whether a wake is a part of the outline.
-bool has_wake(std::span<const RayVertex> outline);
-
 /// A pair of vertices of a wake, one on either side: the same point but behind a blunt base, where the sides have yet
 /// to meet.
 struct WakeVertex {
