@@ -262,8 +262,7 @@ TEST(EndSpacings, CrossesNoCells) {
     const SoundColumns of_quads = fit_random_columns(LayerTopology::quads, 6);
     const SoundColumns of_triangles = fit_random_columns(LayerTopology::layered, 0.25);
     const SoundColumns of_steep_triangles = fit_random_columns(LayerTopology::layered, 6);
-    for (const SoundColumns* sound : {&of_quads, &of_triangles, &of_steep_triangles})
-        EXPECT_GT(sound->changed, 3'000u);
+    for (const SoundColumns* sound : {&of_quads, &of_triangles, &of_steep_triangles}) EXPECT_GT(sound->changed, 3'000u);
 }
 
 }  // namespace
