@@ -14,8 +14,9 @@
 //     const SolutionSizes next = solution_sizes(solution, {.vertices = 2 * n});
 //     assert(std::abs(static_cast<double>(next.vertices) - 2 * n) <= 0.02 * n);
 //
-// Source: F. Alauzet, A. Loseille, J. Comput. Phys. 229 (2010), section 2.3, with p = 2 and metrics h^(-2) I; Hessians:
-// M.-G. Vallet, C.-M. Manole, J. Dompierre, S. Dufour, F. Guibault, Int. J. Numer. Meth. Engng 72 (2007).
+// Source: F. Alauzet, A. Loseille, J. Comput. Phys. 229 (2010), section 2.3, with metrics h^(-2) I; goals: A. Loseille,
+// A. Dervieux, F. Alauzet, J. Comput. Phys. 229 (2010); Hessians: M.-G. Vallet, C.-M. Manole, J. Dompierre, S. Dufour, F.
+// Guibault, Int. J. Numer. Meth. Engng 72 (2007).
 #pragma once
 
 #include <functional>
@@ -38,15 +39,31 @@ struct WallFlowOptions {
     std::vector<std::string> components() const { return {velocity + ":x", velocity + ":y"}; }
 };
 
+/// The fields of an incompressible flow and of the adjoint solution of a goal, as the drag. They are at the same places.
+struct GoalOptions {
+    std::string velocity = "U", pressure = "p";                    ///< the pressure over the density
+    std::string adjoint_velocity = "Ua", adjoint_pressure = "pa";  ///< adjoints of momentum and of mass
+
+    /// Returns the names of the six fields: those of the flow, then those of the adjoint.
+    std::vector<std::string> fields() const {
+        return {velocity + ":x",         velocity + ":y",         pressure,
+                adjoint_velocity + ":x", adjoint_velocity + ":y", adjoint_pressure};
+    }
+};
+
 /// Options of solution_sizes().
 struct SolutionSizeOptions {
     double vertices = 50'000;  ///< number of vertices that the next mesh is to have
+    double norm = 2;           ///< p: the L^p norm of the errors is least; larger ones see large errors above all
     double gradation = 0.2;    ///< SizedMesh::gradation of the result
     double max_change = 4;     ///< sizes are within this factor of the edges of the solution's mesh
     /// Whether sizes are raised near the layers, so that no edge of their borders is divided for their sake, and the
     /// layers stay as they are. Without that, the number of vertices can only be known by making the mesh.
     bool keep_borders = true;
     std::optional<WallFlowOptions> walls{};  ///< empty: nothing is asked of the walls
+    /// Where it is set, sizes lower the error of the goal of an adjoint solution in place of those of the fields: each error of
+    /// interpolation counts as much as it changes the goal, and `norm` is 1.
+    std::optional<GoalOptions> goal{};
 };
 
 LAMINA_EXPORT void validate(const SolutionSizeOptions& options);  ///< throws OptionError: an option out of range
@@ -61,11 +78,13 @@ struct SolutionSizes {
     std::size_t layer_vertices = 0;   ///< number of those in the layer, of the solution's mesh
     std::size_t vertices_before = 0;  ///< number of vertices of the solution's mesh
     int rounds = 0;                   ///< calls of VertexCount
-    std::vector<double> errors;  ///< per field: an estimate of the L2 norm of the error of linear interpolation before
+    /// Per field: an estimate of the norm of the error of linear interpolation before. One number with a goal: the error of
+    /// the goal, if no errors cancelled.
+    std::vector<double> errors;
 };
 
-/// Returns the sizes h = c lambda^(-1/3) at the vertices of the isotropic cells. lambda is the larger eigenvalue of the
-/// recovered Hessian of a field; this has the least mean square of interpolation errors for a given number of
+/// Returns the sizes h = c lambda^(-p / (2 p + 2)) at the vertices of the isotropic cells. lambda is the larger eigenvalue
+/// of the recovered Hessian of a field; this has the least L^p norm of interpolation errors for a given number of
 /// triangles. Several fields are scaled so that each by itself asks for the same number of triangles, and the smallest
 /// size is taken. `count` makes the next mesh; empty: layers and their borders stay those of the solution's mesh, and
 /// only the region beyond is meshed, whose outermost border must be convex then.

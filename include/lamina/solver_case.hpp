@@ -36,6 +36,9 @@ enum class TurbulenceModel {
     laminar,           ///< none: the Navier-Stokes equations as they are
 };
 
+/// Forces whose adjoint solution a case can have.
+enum class AdjointGoal { drag, lift };
+
 /// Options of cases.
 struct SolverCaseOptions {
     /// The model that closes the equations; empty: none below a Reynolds number of 1e4, Spalart-Allmaras above.
@@ -46,10 +49,13 @@ struct SolverCaseOptions {
     /// Whether the case is solved in time, for flow that sheds vortices: by pimpleFoam, or in dual time steps of SU2. In one
     /// step the free stream crosses one edge of a triangle of the wake. OpenFOAM's is for incompressible flow.
     bool unsteady = false;
+    /// The force whose adjoint solution OpenFOAM's steady incompressible case finds by Alladjoint, after Allrun; empty: none.
+    /// That of the turbulence model is a part of it for Spalart-Allmaras; for the other one the viscosity stays.
+    std::optional<AdjointGoal> adjoint{};
 };
 
-/// Throws OptionError where no case of the solver is for a flow of this Mach number, which may be missing, or for one in
-/// time.
+/// Throws OptionError where no case of the solver is for a flow of this Mach number, which may be missing, for one in
+/// time, or for an adjoint solution.
 LAMINA_EXPORT void validate(FlowSolver solver, const SolverCaseOptions& options, const std::optional<double>& mach);
 /// Returns the solvers by their names on the command line: "openfoam", "su2".
 LAMINA_EXPORT const std::vector<std::pair<std::string, FlowSolver>>& flow_solvers();

@@ -1,4 +1,4 @@
-// Second derivatives of fields by least squares. Sources: M.-G. Vallet, C.-M. Manole, J. Dompierre, S. Dufour, F.
+// Derivatives of fields by least squares. Sources: M.-G. Vallet, C.-M. Manole, J. Dompierre, S. Dufour, F.
 // Guibault, Int. J. Numer. Meth. Engng 72 (2007), "quadratic fitting"; O. C. Zienkiewicz, J. Z. Zhu, Int. J. Numer.
 // Meth. Engng 33 (1992).
 #include <lamina/solution_sizes.hpp>
@@ -72,7 +72,7 @@ private:
 };
 
 /// Fits f = a + b x + c y + d x^2 + e x y + f y^2 about a point, in coordinates that make the farthest sample 1 away.
-Hessian fitted_hessian(Point origin, const std::vector<Sample>& samples) {
+Derivatives fitted_derivatives(Point origin, const std::vector<Sample>& samples) {
     double reach = 0, mean = 0;
     for (const Sample& sample : samples) reach = std::max(reach, distance(sample.at, origin));
     for (const Sample& sample : samples) mean += sample.value / static_cast<double>(samples.size());
@@ -90,8 +90,8 @@ Hessian fitted_hessian(Point origin, const std::vector<Sample>& samples) {
     }
     const Vector c = matrix.ldlt().solve(right);
     const double scale = 1 / (reach * reach);
-    const Hessian hessian{2 * scale * c[3], scale * c[4], 2 * scale * c[5]};
-    return std::isfinite(hessian.xx) && std::isfinite(hessian.xy) && std::isfinite(hessian.yy) ? hessian : Hessian{};
+    if (!c.allFinite()) return {};
+    return {{c[1] / reach, c[2] / reach}, {2 * scale * c[3], scale * c[4], 2 * scale * c[5]}};
 }
 
 }  // namespace
@@ -101,17 +101,27 @@ double largest_curvature(const Hessian& hessian) {
     return std::abs(mean) + std::sqrt(half * half + hessian.xy * hessian.xy);
 }
 
-std::vector<Hessian> recover_hessians(const Mesh& mesh, const SolutionField& field) {
+/// The root of the square, by the theorem of Cayley and Hamilton: for a positive A, sqrt(A) is A + sqrt(det A) I over
+/// sqrt(tr A + 2 sqrt(det A)).
+Hessian absolute(const Hessian& h) {
+    const double determinant = std::abs(h.xx * h.yy - h.xy * h.xy);
+    const double xx = h.xx * h.xx + h.xy * h.xy, yy = h.yy * h.yy + h.xy * h.xy, xy = h.xy * (h.xx + h.yy);
+    const double root = std::sqrt(xx + yy + 2 * determinant);
+    if (!(root > 0)) return {};
+    return (1 / root) * Hessian{xx + determinant, xy, yy + determinant};
+}
+
+std::vector<Derivatives> recover_derivatives(const Mesh& mesh, const SolutionField& field) {
     require_fitting(mesh, field);
     const VertexCells cells(mesh, isotropic_cells(mesh));
-    std::vector<Hessian> hessians(mesh.points.size());
+    std::vector<Derivatives> derivatives(mesh.points.size());
     constexpr std::size_t grain = 4096;
-    core::parallel_for(hessians.size(), grain, [&](std::size_t begin, std::size_t end) {
+    core::parallel_for(derivatives.size(), grain, [&](std::size_t begin, std::size_t end) {
         SampleSearch search(mesh, field, cells);
         for (std::size_t v = begin; v < end; ++v)
-            if (!cells.at(v).empty()) hessians[v] = fitted_hessian(mesh.points[v], search.round(v));
+            if (!cells.at(v).empty()) derivatives[v] = fitted_derivatives(mesh.points[v], search.round(v));
     });
-    return hessians;
+    return derivatives;
 }
 
 }  // namespace lamina::adaptation

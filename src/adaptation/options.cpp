@@ -10,6 +10,8 @@ OptionTable<SolutionSizeOptions> option_rows() {
     OptionTableBuilder<SolutionSizeOptions> table("Sizes");
     table.number("vertices", "N", "number of vertices that the next mesh is to have", numbers_from_to(10, 4e9),
                  member_at(&SolutionSizeOptions::vertices));
+    table.number("norm", "P", "p: sizes make the L^p norm of the errors least; larger ones see shocks above all",
+                 numbers_from_to(1, 10), member_at(&SolutionSizeOptions::norm));
     table.number("gradation", "G", "growth of sizes per unit of distance in the next mesh, beyond its layers",
                  numbers_from_to(0.01, 1), member_at(&SolutionSizeOptions::gradation));
     table.number("max-change", "F", "sizes are within this factor of the edges of the solution's mesh",

@@ -1,6 +1,6 @@
 // Sizes that interpolate a solution best. For isotropic triangles of edge h the error of linear interpolation is some
-// multiple of lambda h^2, and there are some 1 / h^2 triangles per unit of area. The integral of (lambda h^2)^2 is least
-// for a given integral of 1 / h^2 where h = c lambda^(-1/3). Source: F. Alauzet, A. Loseille, J. Comput. Phys. 229
+// multiple of lambda h^2, and there are some 1 / h^2 triangles per unit of area. The integral of (lambda h^2)^p is least
+// for a given integral of 1 / h^2 where h = c lambda^(-p / (2 p + 2)). Source: F. Alauzet, A. Loseille, J. Comput. Phys. 229
 // (2010), section 2.3.
 #include <lamina/solution_sizes.hpp>
 
@@ -8,11 +8,14 @@
 #include <cmath>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include <lamina/error.hpp>
 
+#include "adaptation/error_norm.hpp"
+#include "adaptation/goal.hpp"
 #include "adaptation/hessian.hpp"
 #include "adaptation/outer_region.hpp"
 #include "adaptation/vertex_patches.hpp"
@@ -51,37 +54,48 @@ OuterVertices measure_vertices(const Mesh& mesh, const VertexCells& cells) {
     return vertices;
 }
 
-/// What a field asks for.
-struct FieldShape {
-    /// Per vertex of the mesh: lambda^(-1/3), scaled so that such sizes would make one triangle of area h^2. It is
-    /// infinite where the field is linear, and everywhere if it is linear everywhere.
+/// Second derivatives that count: those of a field, or of what a goal makes of all fields.
+struct Curvatures {
+    std::vector<double> lambda;  ///< per vertex of the mesh
+    double rounding = 0;         ///< smaller second differences are 0 but for rounding
+};
+
+/// What second derivatives ask for.
+struct CurvatureShape {
+    /// Per vertex of the mesh: the size, scaled so that such sizes would make one triangle of area h^2. It is infinite
+    /// where lambda is 0, and everywhere if it is 0 everywhere.
     std::vector<double> size;
     double scale = 0;  ///< what lambda is multiplied by so that this comes out
     double error = 0;  ///< SolutionSizes::errors
 };
 
-FieldShape shape_of(const Mesh& mesh, const SolutionField& field, const OuterVertices& vertices) {
-    // Smaller second differences, as shares of the largest value, are rounding.
-    constexpr double rounding = 1e-11;
-    const std::vector<Hessian> hessians = recover_hessians(mesh, field);
-    double largest = 0;
-    for (const double value : field.values) largest = std::max(largest, std::abs(value));
-    FieldShape shape{std::vector<double>(hessians.size(), HUGE_VAL)};
-    double triangles = 0, squared = 0;
-    for (std::size_t v = 0; v < hessians.size(); ++v) {
-        const double curvature = largest_curvature(hessians[v]),
-                     difference = curvature * vertices.edge[v] * vertices.edge[v];
-        if (vertices.area[v] == 0 || !(difference > rounding * largest)) continue;
-        shape.size[v] = 1 / core::pow_reproducible(curvature, 1.0 / 3);
+CurvatureShape shape_of(const Curvatures& curvatures, const OuterVertices& vertices, const ErrorNorm& norm) {
+    CurvatureShape shape{std::vector<double>(curvatures.lambda.size(), HUGE_VAL)};
+    const double p = norm.power();
+    double triangles = 0, error = 0;
+    for (std::size_t v = 0; v < shape.size.size(); ++v) {
+        const double lambda = curvatures.lambda[v], difference = lambda * vertices.edge[v] * vertices.edge[v];
+        if (vertices.area[v] == 0 || !(difference > curvatures.rounding)) continue;
+        shape.size[v] = norm.size(lambda);
         triangles += vertices.area[v] / (shape.size[v] * shape.size[v]);
-        squared += square_error_on_triangle * vertices.area[v] * difference * difference;
+        error += norm.power_on_triangle() * vertices.area[v] * core::pow_reproducible(difference, p);
     }
     if (triangles > 0) {
         for (double& size : shape.size) size *= std::sqrt(triangles);
-        shape.scale = 1 / (triangles * std::sqrt(triangles));
+        shape.scale = 1 / core::pow_reproducible(triangles, (p + 1) / p);
     }
-    shape.error = std::sqrt(squared);
+    if (error > 0) shape.error = core::pow_reproducible(error, 1 / p);
     return shape;
+}
+
+Curvatures curvatures_of(const Mesh& mesh, const SolutionField& field) {
+    constexpr double rounding = 1e-11;  // as a share of the largest value
+    double largest = 0;
+    for (const double value : field.values) largest = std::max(largest, std::abs(value));
+    Curvatures curvatures{{}, rounding * largest};
+    for (const Derivatives& at : recover_derivatives(mesh, field))
+        curvatures.lambda.push_back(largest_curvature(at.hessian));
+    return curvatures;
 }
 
 /// Returns the fields that are to be interpolated well: all but the components of the velocity that walls need, which stand
@@ -91,6 +105,15 @@ std::span<const SolutionField> interpolated_fields(const Solution& solution, con
     return std::span(solution.fields).first(solution.fields.size() - std::min(solution.fields.size(), of_walls));
 }
 
+/// Returns the second derivatives of each field, or those of the goal.
+std::vector<Curvatures> all_curvatures(const Solution& solution, const SolutionSizeOptions& options) {
+    if (options.goal) return {{goal_curvatures(solution, *options.goal), 0}};
+    std::vector<Curvatures> all;
+    for (const SolutionField& field : interpolated_fields(solution, options))
+        all.push_back(curvatures_of(solution.mesh, field));
+    return all;
+}
+
 /// Makes the mesh of sizes from the isotropic cells.
 class SizesMaker {
 public:
@@ -98,16 +121,22 @@ public:
                const OuterVertices& vertices)
         : options_(options) {
         const Mesh& mesh = solution.mesh;
+        const ErrorNorm norm(options.goal ? 1 : options.norm);
         shape_.assign(mesh.points.size(), HUGE_VAL);
         std::vector<double> scales;
-        for (const SolutionField& field : interpolated_fields(solution, options)) {
-            const FieldShape shape = shape_of(mesh, field, vertices);
+        for (const Curvatures& curvatures : all_curvatures(solution, options)) {
+            const CurvatureShape shape = shape_of(curvatures, vertices, norm);
             for (std::size_t v = 0; v < shape_.size(); ++v) shape_[v] = std::min(shape_[v], shape.size[v]);
             errors_.push_back(shape.error);
             scales.push_back(shape.scale);
         }
-        if (options.walls)
-            walls_.emplace(solution, find_wall_flow(solution, *options.walls), scales, options.max_change);
+        if (options.walls) {
+            std::vector<WallFlow> walls = find_wall_flow(solution, *options.walls);
+            std::vector<EdgeValues> curvatures =
+                options.goal ? goal_curvatures_of_walls(solution, *options.goal, walls, scales.front())
+                             : wall_curvatures(solution, walls, scales, norm);
+            walls_.emplace(std::move(walls), std::move(curvatures), norm, options.max_change);
+        }
         if (std::all_of(shape_.begin(), shape_.end(), [](double size) { return size == HUGE_VAL; }))
             throw OptionError("field", "is linear everywhere beyond the layer: no sizes follow from it");
         keep_outer_vertices(mesh, isotropic, vertices);
@@ -231,7 +260,7 @@ SolutionSizes solution_sizes(const Solution& solution, const SolutionSizeOptions
     constexpr double good_enough = 0.01, acceptable = 0.02;
     constexpr int most_rounds = 16;
     validate(options);
-    if (interpolated_fields(solution, options).empty())
+    if (!options.goal && interpolated_fields(solution, options).empty())
         throw OptionError("field", "is needed: sizes follow from fields of the solution");
     const std::vector<char> isotropic = simple_region(solution.mesh, isotropic_cells(solution.mesh));
     const OuterVertices vertices = measure_vertices(solution.mesh, VertexCells(solution.mesh, isotropic));

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <string>
 
+#include <fmt/format.h>
+
 #include <lamina/error.hpp>
 
 #include "mesh/adjacency.hpp"
@@ -48,6 +50,12 @@ std::vector<char> isotropic_cells(const Mesh& mesh) {
     for (std::size_t i = 0; i < regions.size(); ++i) isotropic[i] = regions[i] == Region::isotropic;
     for (int ring = 0; !known && ring < doubtful_rings; ++ring) take_ring(mesh, isotropic);
     return isotropic;
+}
+
+const SolutionField& field_named(const Solution& solution, const std::string& name, const std::string& option) {
+    for (const SolutionField& field : solution.fields)
+        if (field.name == name) return field;
+    throw OptionError(option, fmt::format("'{}' is none of the fields", name));
 }
 
 void require_fitting(const Mesh& mesh, const SolutionField& field) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <lamina/mesh.hpp>
@@ -15,6 +16,8 @@ namespace lamina::adaptation {
 /// isotropic everywhere.
 std::vector<char> isotropic_cells(const Mesh& mesh);
 
+/// Returns the field of this name. Throws OptionError about an option where there is none.
+const SolutionField& field_named(const Solution& solution, const std::string& name, const std::string& option);
 /// Throws OptionError where a field has another number of values than the mesh has vertices or cells.
 void require_fitting(const Mesh& mesh, const SolutionField& field);
 

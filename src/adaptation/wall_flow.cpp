@@ -5,8 +5,6 @@
 #include <optional>
 #include <span>
 
-#include <fmt/format.h>
-
 #include <lamina/error.hpp>
 
 #include "adaptation/cell_gradients.hpp"
@@ -18,12 +16,6 @@
 namespace lamina::adaptation {
 
 namespace {
-
-const SolutionField& field_named(const Solution& solution, const std::string& name) {
-    for (const SolutionField& field : solution.fields)
-        if (field.name == name) return field;
-    throw OptionError("velocity", fmt::format("'{}' is none of the fields", name));
-}
 
 /// Velocity and vorticity in the cells, over the speed of the free stream.
 struct CellFlow {
@@ -142,6 +134,8 @@ private:
             if (in_layer) {
                 wall.layers += 0.5 * static_cast<double>(cells_.corners(cell) - 2);
                 wall.layer_height = end;
+                wall.column.push_back(static_cast<std::uint32_t>(cell));
+                wall.tops.push_back(end);
             }
             height = end;
             edge = adjacency_.twin[exit->first];
@@ -225,7 +219,8 @@ std::vector<WallFlow> find_wall_flow(const Solution& solution, const WallFlowOpt
     constexpr double reach = 0.1;
     const Mesh& mesh = solution.mesh;
     const std::vector<std::string> names = options.components();
-    const SolutionField &x = field_named(solution, names[0]), &y = field_named(solution, names[1]);
+    const SolutionField &x = field_named(solution, names[0], "velocity"),
+                        &y = field_named(solution, names[1], "velocity");
     for (const SolutionField* field : {&x, &y}) require_fitting(mesh, *field);
     const CellFlow flow =
         x.at_cells ? flow_from_cells(mesh, x.values, y.values) : flow_from_vertices(mesh, x.values, y.values);

@@ -21,6 +21,8 @@ struct WallFlowEdge {
     double thickness = 0;     ///< of the boundary layer; 0 where its end is not seen
     double layer_height = 0;  ///< of the cells of the layer above the edge
     double layers = 0;        ///< number of those cells; two triangles count as one quadrilateral
+    std::vector<std::uint32_t> column;  ///< those cells, from the wall on
+    std::vector<double> tops;           ///< per cell of the column: the distance from the wall where it ends
 };
 
 /// The edges of one wall, in their order; a closed chain, counter-clockwise round a body.

@@ -9,8 +9,6 @@ namespace lamina::adaptation {
 
 namespace {
 
-using EdgeValues = std::vector<double>;
-
 /// Returns a field at the middles of the edges of a wall: at the wall, or in the cells on it.
 EdgeValues values_on(const WallFlow& wall, const SolutionField& field) {
     EdgeValues values;
@@ -21,46 +19,35 @@ EdgeValues values_on(const WallFlow& wall, const SolutionField& field) {
     return values;
 }
 
-/// Returns the second derivatives of values along a wall: roots of mean squares over three edges. Edges at corners have that of
-/// the edge beside them.
+/// Returns the second derivatives of values along a wall: roots of mean squares over three edges.
 EdgeValues curvatures(const WallFlow& wall, const EdgeValues& values) {
-    const std::size_t n = wall.size();
-    const auto at = [&](std::size_t i, std::size_t shift) { return (i + n + shift) % n; };
-    EdgeValues second(n, 0.0);
-    for (std::size_t i = 0; i < n; ++i) {
-        const std::size_t before = at(i, n - 1), after = at(i, 1);
-        if (wall[i].at_corner) continue;
-        const double back = 0.5 * (wall[before].length + wall[i].length),
-                     ahead = 0.5 * (wall[i].length + wall[after].length);
-        second[i] = 2 * ((values[after] - values[i]) / ahead - (values[i] - values[before]) / back) / (back + ahead);
+    EdgeValues squares(wall.size(), 0.0);
+    for (std::size_t i = 0; i < wall.size(); ++i) {
+        const EdgesBeside beside(wall, i);
+        const double second = beside.second_derivative(values[beside.before], values[i], values[beside.after]);
+        squares[i] = second * second;
     }
-    EdgeValues mean(n, 0.0);
-    for (std::size_t i = 0; i < n; ++i) {
-        double squares = 0, lengths = 0;
-        for (const std::size_t j : {at(i, n - 1), i, at(i, 1)}) {
-            if (wall[j].at_corner) continue;
-            squares += wall[j].length * second[j] * second[j];
-            lengths += wall[j].length;
-        }
-        mean[i] = lengths > 0 ? std::sqrt(squares / lengths) : 0;
-    }
-    return mean;
+    EdgeValues roots = means_of_three(wall, squares);
+    for (double& root : roots) root = std::sqrt(root);
+    return roots;
 }
 
-/// Returns the spacing that this second derivative asks for with factor 1, to the power 5.
-double spacing_to_the_fifth(const WallFlowEdge& edge, double curvature) {
-    return edge.layers * 2 * equilateral_area * square_error_on_triangle /
-           (2 * square_error_on_line * edge.layer_height * curvature * curvature);
+/// Returns the spacing that this second derivative asks for with factor 1.
+double spacing(const WallFlowEdge& edge, double curvature, const ErrorNorm& norm) {
+    if (!(curvature > 0)) return HUGE_VAL;
+    const double p = norm.power();
+    const double triangles = edge.layers * 2 * equilateral_area * norm.power_on_triangle(),
+                 column = 2 * norm.power_on_line() * edge.layer_height;
+    return core::pow_reproducible(triangles / (column * core::pow_reproducible(curvature, p)), 1 / (2 * p + 1));
 }
 
 /// Returns the number of edges that these second derivatives ask for with factor 1.
-double edges_asked(const std::vector<WallFlow>& walls, const std::vector<EdgeValues>& curvature) {
+double edges_asked(const std::vector<WallFlow>& walls, const std::vector<EdgeValues>& curvature,
+                   const ErrorNorm& norm) {
     double edges = 0;
     for (std::size_t w = 0; w < walls.size(); ++w)
         for (std::size_t i = 0; i < walls[w].size(); ++i)
-            if (curvature[w][i] > 0 && walls[w][i].layers > 0)
-                edges += walls[w][i].length /
-                         core::pow_reproducible(spacing_to_the_fifth(walls[w][i], curvature[w][i]), 0.2);
+            if (walls[w][i].layers > 0) edges += walls[w][i].length / spacing(walls[w][i], curvature[w][i], norm);
     return edges;
 }
 
@@ -71,40 +58,71 @@ void raise(std::vector<EdgeValues>& values, const std::vector<EdgeValues>& other
 
 }  // namespace
 
-WallSizes::WallSizes(const Solution& solution, std::vector<WallFlow> walls, std::span<const double> scales,
-                     double max_change)
-    : walls_(std::move(walls)), max_change_(max_change) {
-    std::vector<EdgeValues> friction;
-    for (const WallFlow& wall : walls_) {
+EdgesBeside::EdgesBeside(const WallFlow& wall, std::size_t edge)
+    : before((edge + wall.size() - 1) % wall.size()),
+      after((edge + 1) % wall.size()),
+      back_(0.5 * (wall[before].length + wall[edge].length)),
+      ahead_(0.5 * (wall[edge].length + wall[after].length)) {}
+
+double EdgesBeside::second_derivative(double at_before, double here, double at_after) const {
+    return 2 * ((at_after - here) / ahead_ - (here - at_before) / back_) / (back_ + ahead_);
+}
+
+EdgeValues means_of_three(const WallFlow& wall, const EdgeValues& values) {
+    EdgeValues means(wall.size(), 0.0);
+    for (std::size_t i = 0; i < wall.size(); ++i) {
+        const EdgesBeside beside(wall, i);
+        double sum = 0, lengths = 0;
+        for (const std::size_t j : {beside.before, i, beside.after}) {
+            if (wall[j].at_corner) continue;
+            sum += wall[j].length * values[j];
+            lengths += wall[j].length;
+        }
+        means[i] = lengths > 0 ? sum / lengths : 0;
+    }
+    return means;
+}
+
+std::vector<EdgeValues> wall_curvatures(const Solution& solution, const std::vector<WallFlow>& walls,
+                                        std::span<const double> scales, const ErrorNorm& norm) {
+    std::vector<EdgeValues> curvature, friction;
+    for (const WallFlow& wall : walls) {
         EdgeValues values;
         for (const WallFlowEdge& edge : wall) values.push_back(edge.friction);
         friction.push_back(curvatures(wall, values));
-        curvature_.emplace_back(wall.size(), 0.0);
+        curvature.emplace_back(wall.size(), 0.0);
     }
     for (std::size_t f = 0; f < scales.size(); ++f) {
         std::vector<EdgeValues> of_field;
-        for (const WallFlow& wall : walls_) of_field.push_back(curvatures(wall, values_on(wall, solution.fields[f])));
-        raise(curvature_, of_field, scales[f]);
+        for (const WallFlow& wall : walls) of_field.push_back(curvatures(wall, values_on(wall, solution.fields[f])));
+        raise(curvature, of_field, scales[f]);
     }
-    // Friction is no field of the region beyond: it gets as many edges as the fields do.
-    const double by_fields = edges_asked(walls_, curvature_), by_friction = edges_asked(walls_, friction);
-    if (by_friction > 0) raise(curvature_, friction, core::pow_reproducible(by_fields / by_friction, 2.5));
+    const double by_fields = edges_asked(walls, curvature, norm), by_friction = edges_asked(walls, friction, norm);
+    const double p = norm.power();
+    if (by_friction > 0) raise(curvature, friction, core::pow_reproducible(by_fields / by_friction, (2 * p + 1) / p));
+    return curvature;
+}
+
+WallSizes::WallSizes(std::vector<WallFlow> walls, std::vector<EdgeValues> curvatures, const ErrorNorm& norm,
+                     double max_change)
+    : walls_(std::move(walls)), of_factor_((2 * norm.power() + 2) / (2 * norm.power() + 1)), max_change_(max_change) {
+    for (std::size_t w = 0; w < walls_.size(); ++w) {
+        EdgeValues& spacings = spacing_.emplace_back();
+        for (std::size_t i = 0; i < walls_[w].size(); ++i)
+            spacings.push_back(spacing(walls_[w][i], curvatures[w][i], norm));
+    }
 }
 
 std::vector<SizedWall> WallSizes::with(double factor) const {
-    const double scale = core::pow_reproducible(factor, 1.2);
+    const double scale = core::pow_reproducible(factor, of_factor_);
     std::vector<SizedWall> result;
     for (std::size_t w = 0; w < walls_.size(); ++w) {
         SizedWall& wall = result.emplace_back();
         for (std::size_t i = 0; i < walls_[w].size(); ++i) {
             const WallFlowEdge& edge = walls_[w][i];
-            double spacing = edge.length;
-            if (edge.layers > 0)
-                spacing = curvature_[w][i] > 0
-                              ? scale * core::pow_reproducible(spacing_to_the_fifth(edge, curvature_[w][i]), 0.2)
-                              : HUGE_VAL;
+            const double asked = edge.layers > 0 ? scale * spacing_[w][i] : edge.length;
             wall.points.push_back(edge.at);
-            wall.spacings.push_back(std::clamp(spacing, edge.length / max_change_, edge.length * max_change_));
+            wall.spacings.push_back(std::clamp(asked, edge.length / max_change_, edge.length * max_change_));
             wall.units.push_back(edge.wall_unit);
             wall.thicknesses.push_back(edge.thickness);
         }

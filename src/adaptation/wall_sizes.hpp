@@ -7,30 +7,54 @@
 #include <lamina/solution.hpp>
 #include <lamina/solution_sizes.hpp>
 
+#include "adaptation/error_norm.hpp"
 #include "adaptation/wall_flow.hpp"
 
 namespace lamina::adaptation {
 
-/// The mean square error of interpolating x^2 / 2 linearly between points 1 apart, and on equilateral triangles with edges of 1.
-inline constexpr double square_error_on_line = 1.0 / 120, square_error_on_triangle = 3.375 / 720;
+/// One number per edge of each wall.
+using EdgeValues = std::vector<double>;
+
+/// The edges beside one of a wall, and differences along the wall there.
+class EdgesBeside {
+public:
+    EdgesBeside(const WallFlow& wall, std::size_t edge);
+    /// Returns the second derivative of values at the middles of the three edges.
+    double second_derivative(double at_before, double here, double at_after) const;
+
+    std::size_t before, after;
+
+private:
+    double back_, ahead_;  ///< distances of the middles
+};
+
+/// Returns means over each edge and those beside it; edges at corners do not count, and have the mean of those beside them.
+EdgeValues means_of_three(const WallFlow& wall, const EdgeValues& values);
+
+/// Returns the second derivatives along walls that fields ask for, where those of each field beyond the walls are multiplied
+/// by its scale; the largest of all fields counts. Friction, which is no field of the region beyond, gets as many edges as
+/// the fields do.
+std::vector<EdgeValues> wall_curvatures(const Solution& solution, const std::vector<WallFlow>& walls,
+                                        std::span<const double> scales, const ErrorNorm& norm);
 
 /// Makes spacings of walls that cost and gain as much as sizes beyond the layer do. A column of N layers with the height H and
-/// the width h has N / h vertices and the mean square error H (c lambda h^2)^2 per unit of the wall, where lambda is the second
+/// the width h has N / h vertices and an error of H c (lambda h^2)^p per unit of the wall, where lambda is the second
 /// derivative along it, which is taken for the same at all heights. Beyond the layer there are 1 / (a h^2) vertices and an error
-/// of (c' lambda h^2)^2 per unit of area. A last vertex gains the same in both where
-///   h_wall^5 = factor^6 a c' N / (2 c H lambda^2)   and   h = factor lambda^(-1/3).
+/// of c' (lambda h^2)^p per unit of area. A last vertex gains the same in both where
+///   h_wall^(2 p + 1) = factor^(2 p + 2) a c' N / (2 c H lambda^p)   and   h = factor lambda^(-p / (2 p + 2)).
 /// Source: A. Loseille, F. Alauzet, SIAM J. Numer. Anal. 49 (2011), with the heights of cells given.
 class WallSizes {
 public:
-    /// scales: those by which the second derivatives of each field of the solution are multiplied, as beyond the layer.
-    WallSizes(const Solution& solution, std::vector<WallFlow> walls, std::span<const double> scales, double max_change);
+    WallSizes(std::vector<WallFlow> walls, std::vector<EdgeValues> curvatures, const ErrorNorm& norm,
+              double max_change);
 
     /// Returns walls for sizes of this factor.
     std::vector<SizedWall> with(double factor) const;
 
 private:
     std::vector<WallFlow> walls_;
-    std::vector<std::vector<double>> curvature_;  ///< per wall and edge: the largest lambda of all fields
+    std::vector<EdgeValues> spacing_;  ///< per wall and edge: that with factor 1; infinite where lambda is 0
+    double of_factor_;                 ///< spacings are multiplied by this power of the factor
     double max_change_;
 };
 

@@ -251,7 +251,7 @@ private:
     std::vector<std::string> digits_of_rounds() const {
         std::string text = fingerprint(case_) + settings_.identity;
         for (const std::string& field : settings_.fields) text += "\n" + field;
-        text += fmt::format("\n{} {}", settings_.sizes.gradation, settings_.sizes.max_change);
+        text += fmt::format("\n{} {} {}", settings_.sizes.gradation, settings_.sizes.max_change, settings_.sizes.norm);
         std::vector<std::string> digits;
         for (int i = 0; i < settings_.rounds; ++i) {
             text += fmt::format("\n{}", wanted_vertices(static_cast<std::size_t>(i)));
@@ -321,7 +321,9 @@ private:
         options.vertices = wanted_vertices(i) > 0 ? wanted_vertices(i) : static_cast<double>(rounds_.front().vertices);
         // A mesh with few vertices needs sizes that grow fast.
         options.gradation = std::max(options.gradation, mesher_->gradation());
-        const std::vector<std::string> fields = settings_.fields.empty() ? solver_.usual_fields() : settings_.fields;
+        const std::vector<std::string> fields = options.goal               ? options.goal->fields()
+                                                : settings_.fields.empty() ? solver_.usual_fields()
+                                                                           : settings_.fields;
         const std::string velocity = solver_.velocity(folder_of(i - 1));
         std::vector<std::string> needed = fields;
         if (mesher_->viscosity() && !velocity.empty()) {
@@ -334,8 +336,9 @@ private:
                 return mesher_->make(std::make_shared<const SizedMesh>(sizes)).mesh.points.size();
             });
         std::string errors;
-        for (std::size_t f = 0; f < fields.size(); ++f)
-            errors += fmt::format("{}{:.4g} in {}", f == 0 ? "" : ", ", made.errors[f], fields[f]);
+        for (std::size_t f = 0; f < made.errors.size(); ++f)
+            errors += fmt::format("{}{:.4g} in {}", f == 0 ? "" : ", ", made.errors[f],
+                                  options.goal ? "the goal" : fields[f]);
         say(fmt::format("round {}: error of the solution before, estimated beyond the layer: {}", i, errors));
         write_sizes(made.sizes, folder / "sizes.vtu");
         return mesher_->make(std::make_shared<const SizedMesh>(made.sizes));

@@ -107,6 +107,7 @@ public:
     void require_programs() const override {
         if (solver_ == FlowSolver::su2) return require_program("SU2_CFD");
         for (const char* program : {"simpleFoam", "renumberMesh"}) require_program(program);
+        if (options_.adjoint) require_program("adjointOptimisationFoam");
         if (options_.compressible) require_program("rhoSimpleFoam");
     }
     std::vector<std::string> usual_fields() const override {
@@ -144,6 +145,7 @@ public:
         forces.steady = code == 0;
         forces.iterations = count_of(number("iterations"));
         forces.residual = residual(folder);
+        if (options_.adjoint) find_adjoint(folder, guard);
         return forces;
     }
     Solution read(const fs::path& folder, const std::vector<std::string>& fields) const override {
@@ -152,6 +154,11 @@ public:
     }
 
 private:
+    void find_adjoint(const fs::path& folder, SignalGuard& guard) const {
+        const fs::path log = folder / "log.adjoint";
+        const int code = run_program_in(folder, {fs::absolute(folder / "Alladjoint").string()}, log, guard);
+        if (code != 0) throw IoError(log.string(), fmt::format("the adjoint solver ended with exit code {}", code));
+    }
     std::optional<double> residual(const fs::path& folder) const {
         if (solver_ == FlowSolver::su2) return NumberTable(folder / "history.csv", ',').last_number("rms[Rho]");
         // The last block of iterations has the folder of the largest number.

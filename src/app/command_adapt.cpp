@@ -1,6 +1,7 @@
 // lamina adapt: meshes, solves and meshes again, until the forces stay.
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,18 +29,23 @@ struct AdaptArguments {
     GivenOptions mesh;
 };
 
-void require_goal(const std::string& goal) {
-    if (goal == "fields") return;
-    if (goal == "drag" || goal == "lift")
-        throw UsageError(fmt::format(
-            "option --goal: {0} needs an adjoint solution of the {0}, which no case of lamina computes and no "
-            "reader takes: leave --goal out, or give fields",
-            goal));
-    throw UsageError("option --goal: " + unknown_choice(goal, {"fields", "drag", "lift"}));
+/// Returns the force that is to be found well; nothing where it is the fields. Throws UsageError where there is no adjoint
+/// solution of it.
+std::optional<AdjointGoal> goal_of(const AdaptArguments& arguments, const MeshCase& mesh_case) {
+    const std::string& goal = arguments.goal;
+    if (goal == "fields") return {};
+    if (goal != "drag" && goal != "lift")
+        throw UsageError("option --goal: " + unknown_choice(goal, {"fields", "drag", "lift"}));
+    const bool is_su2 = arguments.solver == "su2", is_openfoam = arguments.solver == "openfoam";
+    if (is_su2 || (is_openfoam && mesh_case.options.conditions.mach))
+        throw UsageError(
+            fmt::format("option --goal: {0} needs an adjoint solution of the {0}, which {1}: give fields, {2}", goal,
+                        is_su2 ? "cases of SU2 do not find" : "OpenFOAM finds in incompressible flow alone",
+                        is_su2 ? "or openfoam as the solver" : "or leave --mach out"));
+    return goal == "lift" ? AdjointGoal::lift : AdjointGoal::drag;
 }
 
 void adapt(const AdaptArguments& arguments) {
-    require_goal(arguments.goal);
     AdaptSettings settings = arguments.settings;
     settings.folder = arguments.folder;
     require_in_range(numbers_from_to(1, 100), settings.rounds, "option --rounds");
@@ -54,8 +60,10 @@ void adapt(const AdaptArguments& arguments) {
     SolverCaseOptions options;
     set_by_name(option_table<SolverCaseOptions>(), "turbulence", arguments.turbulence, options);
     const MeshCase mesh_case = case_of_command_line(arguments.mesh);
+    options.adjoint = goal_of(arguments, mesh_case);
+    if (options.adjoint) settings.sizes.goal.emplace();
     if (is_given(mesh_case, "gradation")) settings.sizes.gradation = mesh_case.options.sizing.gradation;
-    settings.identity = fmt::format("\n{}\n{}", arguments.solver, arguments.turbulence);
+    settings.identity = fmt::format("\n{}\n{}\n{}", arguments.solver, arguments.turbulence, arguments.goal);
     MeshCase without_outputs = mesh_case;
     without_outputs.outputs.clear();
     for (const auto& [file, option] : files_beside_mesh) (without_outputs.*file).clear();
@@ -110,10 +118,13 @@ void add_round_options(CLI::App& command, AdaptArguments& arguments) {
 /// Adds the options of what is solved, and what sizes follow.
 void add_goal_options(CLI::App& command, AdaptArguments& arguments) {
     command
-        .add_option(
-            "--goal", arguments.goal,
-            "what is to be found well; drag and lift need an adjoint solution, which no solver gives yet [fields]")
+        .add_option("--goal", arguments.goal,
+                    "what is to be found well; for drag and lift an adjoint solution weighs the errors of the flow: "
+                    "openfoam finds "
+                    "it in incompressible flow, and a command leaves U, p, Ua and pa, as OpenFOAM names them [fields]")
         ->type_name("fields|drag|lift")
+        ->group(group_of_adapt);
+    add_table_option(command, option_table<SolutionSizeOptions>(), "norm", arguments.sizes["norm"])
         ->group(group_of_adapt);
     command
         .add_option("--field", arguments.settings.fields,

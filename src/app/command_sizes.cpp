@@ -57,8 +57,8 @@ VertexCount count_by_case(const MeshCase& mesh_case) {
     };
 }
 
-std::string sizes_summary(const SolutionSizes& made, const SizesArguments& arguments, double wanted,
-                          bool regions_known) {
+std::string sizes_summary(const SolutionSizes& made, const SizesArguments& arguments,
+                          const SolutionSizeOptions& options, bool regions_known) {
     const auto [low, high] = std::minmax_element(made.sizes.sizes.begin(), made.sizes.sizes.end());
     std::string text = fmt::format("sizes from {}: {}\n", arguments.solution, fmt::join(arguments.fields, ", "));
     text += summary_line(
@@ -66,11 +66,11 @@ std::string sizes_summary(const SolutionSizes& made, const SizesArguments& argum
                                 regions_known ? "" : ", by the shapes of cells: VTU files of lamina (--mesh) know it"));
     for (std::size_t i = 0; i < made.errors.size(); ++i)
         text += summary_line("error", fmt::format("{:.4g} in {}: estimate for linear interpolation beyond the layer, "
-                                                  "root of the integral of its square",
-                                                  made.errors[i], arguments.fields[i]));
+                                                  "in the norm L^{}",
+                                                  made.errors[i], arguments.fields[i], options.norm));
     text += summary_line(
         "next",
-        fmt::format("{} vertices, where {:.0f} are wanted ({}, {} rounds)", made.vertices, wanted,
+        fmt::format("{} vertices, where {:.0f} are wanted ({}, {} rounds)", made.vertices, options.vertices,
                     arguments.case_file.empty() ? "with the layers of the solution's mesh" : "with those of the case",
                     made.rounds));
     text += summary_line("sizes", fmt::format("from {:.4g} to {:.4g} units of the input, growing by {} per unit", *low,
@@ -120,7 +120,7 @@ void sizes(const SizesArguments& arguments) {
     const Solution solution = read_solution(arguments.solution, fields, arguments.mesh);
     const SolutionSizes made = solution_sizes(solution, options, count);
     write_sizes(made.sizes, arguments.output);
-    print_summary(sizes_summary(made, arguments, options.vertices, !solution.mesh.region.empty()), outputs);
+    print_summary(sizes_summary(made, arguments, options, !solution.mesh.region.empty()), outputs);
 }
 
 }  // namespace
@@ -144,7 +144,7 @@ void add_sizes_command(CLI::App& app) {
         ->required()
         ->delimiter(',')
         ->type_name("NAME[,NAME...]");
-    for (const char* name : {"vertices", "gradation", "max-change"})
+    for (const char* name : {"vertices", "norm", "gradation", "max-change"})
         add_table_option(*command, option_table<SolutionSizeOptions>(), name, arguments->options[name]);
     command->get_option("--vertices")->required();
     command

@@ -174,6 +174,22 @@ void add_turbulence(const CaseFlow& flow, Words& words) {
                                           : condition("fixedValue", "uniform 0");
 }
 
+/// Adds what the adjoint solution needs. Its convection takes the flow's scheme; that of its turbulence is of first order.
+void add_adjoint(const CaseFlow& flow, Words& words) {
+    const bool of_lift = flow.adjoint == AdjointGoal::lift;
+    words["GOAL"] = of_lift ? "lift" : "drag";
+    words["GOAL_DIRECTION"] = words[of_lift ? "LIFT_DIRECTION" : "DRAG_DIRECTION"];
+    words["ADJOINT_ITERATIONS"] = "300";
+    words["ADJOINT_MODEL"] =
+        flow.turbulence == TurbulenceModel::spalart_allmaras ? "adjointSpalartAllmaras" : "adjointLaminar";
+    words["ADJOINT_SCHEMES"] = flow.adjoint ? R"(    div(-phi,Ua)    bounded Gauss linearUpwind limited;
+    div(-phi,nuaTilda) bounded Gauss upwind;
+    div((nuEff*dev(grad(Ua).T()))) Gauss linear;
+    div((momentumSourceMult*nuaTilda)) Gauss linear;
+)"
+                                            : "";
+}
+
 }  // namespace
 
 Words openfoam_words(const CaseFlow& flow) {
@@ -211,6 +227,7 @@ Words openfoam_words(const CaseFlow& flow) {
     add_time_scheme(flow, words);
     add_medium(flow, words);
     add_turbulence(flow, words);
+    add_adjoint(flow, words);
     return words;
 }
 

@@ -94,6 +94,10 @@ bool belongs_to_case(const Template& file, const SolverEntry& entry, TurbulenceM
                                 "system/fvOptions.gas",
                                 "system/medium.compressible"};
     if (std::find(of_gas.begin(), of_gas.end(), name) != of_gas.end()) return options.compressible;
+    constexpr std::array of_adjoint{"Alladjoint", "adjoint/Ua", "adjoint/pa", "constant/adjointRASProperties",
+                                    "system/optimisationDict"};
+    if (std::find(of_adjoint.begin(), of_adjoint.end(), name) != of_adjoint.end()) return options.adjoint.has_value();
+    if (name == "adjoint/nuaTilda") return options.adjoint && turbulence == TurbulenceModel::spalart_allmaras;
     if (name == "0/nut") return turbulence != TurbulenceModel::laminar;
     if (name == "0/nuTilda") return turbulence == TurbulenceModel::spalart_allmaras;
     if (name == "0/k" || name == "0/omega") return turbulence == TurbulenceModel::k_omega_sst;
@@ -219,6 +223,7 @@ CaseFlow case_flow(FlowSolver solver, const Mesh& mesh, const SolverConditions& 
     const double alpha = core::radians(alpha_deg);
     flow.direction = {core::cos_reproducible(alpha), core::sin_reproducible(alpha)};
     flow.wall_functions = conditions.wall_functions;
+    flow.adjoint = options.adjoint;
     flow.turbulence = turbulence_of(options, flow::is_laminar(conditions.reference));
     flow.walls = names_of_markers(mesh, MarkerKind::wall);
     flow.far_fields = names_of_markers(mesh, MarkerKind::far_field);
@@ -231,6 +236,8 @@ CaseFlow case_flow(FlowSolver solver, const Mesh& mesh, const SolverConditions& 
     if (flow.walls.empty()) throw MeshError("a case needs a mesh with a marker that is a wall");
     if (flow.far_fields.empty()) throw MeshError("a case needs a mesh with a marker that is a far field");
     flow.row = row_of(mesh, flow);
+    if (flow.adjoint && (flow.axisymmetric || flow.row))
+        throw OptionError("adjoint", "is that of a flow in a plane, within a far field");
     if (flow.axisymmetric) flow.area = largest_circle(mesh, flow.walls);
     if (options.unsteady) flow.time = steps_in_time(mesh, flow);
     flow.moment_point =
@@ -294,6 +301,13 @@ const std::vector<std::pair<std::string, FlowSolver>>& flow_solvers() {
 }
 
 void validate(FlowSolver solver, const SolverCaseOptions& options, const std::optional<double>& mach) {
+    if (options.adjoint) {
+        const char* reason = solver != FlowSolver::openfoam ? "is what cases of OpenFOAM alone find"
+                             : options.compressible         ? "is that of an incompressible flow: leave out mach"
+                             : options.unsteady             ? "is that of a steady flow"
+                                                            : nullptr;
+        if (reason != nullptr) throw OptionError("adjoint", reason);
+    }
     if (!options.compressible) return;
     if (solver == FlowSolver::openfoam && options.unsteady)
         throw OptionError("unsteady", "a case of OpenFOAM in time is incompressible: leave out mach, or take su2");

@@ -35,9 +35,10 @@ struct CaseFlow {
     double mach = 0;
     bool compressible = false;  ///< SolverCaseOptions::compressible
     double velocity = 1;
-    std::optional<TimeSteps> time{};  ///< empty: the case is steady
-    double viscosity = 0;             ///< kinematic: velocity x chord / Reynolds number
-    Point direction;                  ///< of the free stream, of length 1
+    std::optional<AdjointGoal> adjoint{};  ///< SolverCaseOptions::adjoint
+    std::optional<TimeSteps> time{};       ///< empty: the case is steady
+    double viscosity = 0;                  ///< kinematic: velocity x chord / Reynolds number
+    Point direction;                       ///< of the free stream, of length 1
     Point moment_point;
     bool wall_functions = false;
     TurbulenceModel turbulence = TurbulenceModel::spalart_allmaras;

@@ -1,6 +1,7 @@
 // Sizes from solutions: their places, the number of vertices of the next mesh, and the error in it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <utility>
@@ -70,6 +71,29 @@ TEST(SolutionSizes, AFrontGetsSmallTriangles) {
     }
     ASSERT_GT(count_on_front, 0);
     EXPECT_LT(3 * on_front / count_on_front, away / count_away);
+}
+
+/// Where second derivatives are 10 times as large, sizes are smaller by 10^(p / (2 p + 2)).
+TEST(SolutionSizes, LargerNormsSeeLargeErrorsMore) {
+    const MeshResult first = generate_mesh(one_section(), near_options());
+    const Point strong{0.5, 2}, weak{0.5, -2};
+    const auto hill = [](Point p) { return std::exp(-2 * squared_length(p)); };
+    const Solution solution =
+        solution_on(first.mesh, {[&](Point p) { return 10 * hill(p - strong) + hill(p - weak); }});
+    for (const double norm : {1.0, 2.0, 5.0}) {
+        const SizedMesh sizes = solution_sizes(solution, {.vertices = 12'000, .norm = norm, .max_change = 20}).sizes;
+        const auto mean_near = [&](Point middle) {
+            double sum = 0, count = 0;
+            for (std::size_t i = 0; i < sizes.points.size(); ++i) {
+                if (distance(sizes.points[i], middle) > 0.3) continue;
+                sum += sizes.sizes[i];
+                ++count;
+            }
+            return sum / count;
+        };
+        const double ratio = std::pow(10, norm / (2 * norm + 2));
+        EXPECT_NEAR(mean_near(weak) / mean_near(strong), ratio, 0.1 * ratio) << norm;
+    }
 }
 
 TEST(SolutionSizes, TheNextMeshHasTheNumberOfVerticesAskedFor) {
@@ -193,6 +217,7 @@ TEST(SolutionSizes, RefusesWhatCannotBe) {
     const Solution solution = solution_on(first.mesh, {front});
     EXPECT_THROW(solution_sizes(solution, {.vertices = 3000}), OptionError);
     EXPECT_THROW(solution_sizes(solution, {.vertices = 12'000, .gradation = 0}), OptionError);
+    EXPECT_THROW(solution_sizes(solution, {.vertices = 12'000, .norm = 0.5}), OptionError);
     EXPECT_THROW(solution_sizes({first.mesh, {}}, {.vertices = 12'000}), OptionError);
     EXPECT_THROW(solution_sizes(solution_on(first.mesh, {[](Point) { return 3.0; }}), {.vertices = 12'000}),
                  OptionError);

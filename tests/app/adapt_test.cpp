@@ -115,6 +115,19 @@ TEST(AdaptCommand, AFailedRoundLeavesThoseBefore) {
     for (const std::string& name : folder.names()) EXPECT_EQ(name.find(".part-"), std::string::npos) << name;
 }
 
+TEST(AdaptCommand, AGoalNeedsTheAdjointOfTheSolver) {
+    const TemporaryFolder folder;
+    folder.write("so lve.sh", script("sed -i 's/Ua/Ub/' solution.vtu\n"));
+    const ProgramRun without = run_lamina(folder, adapt({"--goal", "drag"}));
+    EXPECT_EQ(without.exit_code, usage);
+    EXPECT_NE(without.err.find("no array 'Ua'"), std::string::npos) << without.err;
+    std::filesystem::remove_all(folder / "loop");
+    folder.write("so lve.sh", script(""));
+    const ProgramRun run = run_lamina(folder, adapt({"--goal", "drag"}));
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_NE(run.err.find("in the goal"), std::string::npos) << run.err;
+}
+
 TEST(AdaptCommand, RefusesSolutionsThatItCannotUse) {
     const TemporaryFolder folder;
     folder.write("so lve.sh", script("sed -i 's/Mach/Much/' solution.vtu\n"));
@@ -149,7 +162,9 @@ TEST(AdaptCommand, SaysWhatIsMissingBeforeTheFirstMesh) {
     expect_refused(folder, adapt({}, "'./so lve.sh'"), usage, "./so lve.sh cannot be run");
     expect_refused(folder, adapt({}, "sh 'solve.sh"), usage, "the quote ' does not end");
     expect_refused(folder, adapt({}, " "), usage, "is empty");
-    expect_refused(folder, adapt({"--goal", "drag"}), usage, "needs an adjoint solution of the drag");
+    expect_refused(folder, adapt({"--goal", "drag"}, "su2"), usage, "needs an adjoint solution of the drag");
+    expect_refused(folder, adapt({"--goal", "lift", "--mach", "0.2"}, "openfoam"), usage,
+                   "in incompressible flow alone");
     expect_refused(folder, adapt({"--goal", "drags"}), usage, "drags");
     expect_refused(folder, adapt({"--tolerance", "0"}), usage, "tolerance");
     const std::vector<std::string> before = folder.names();

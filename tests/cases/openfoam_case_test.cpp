@@ -41,8 +41,9 @@ TEST(SolverCase, NoPlaceholderIsLeft) {
                 conditions.wall_functions = special;
                 conditions.reference.mach = 0.2;
                 for (const bool unsteady : {false, true}) {
-                    const SolverCaseOptions options{
+                    SolverCaseOptions options{
                         .turbulence = turbulence, .compressible = special && !unsteady, .unsteady = unsteady};
+                    if (solver == FlowSolver::openfoam && !special && !unsteady) options.adjoint = AdjointGoal::lift;
                     for (const cases::SolverCaseFile& file :
                          cases::solver_case_files(solver, case_mesh(), conditions, options)) {
                         EXPECT_FALSE(std::regex_search(file.text, placeholder)) << name << " " << file.name;
@@ -208,6 +209,37 @@ TEST(OpenFoamCase, StepsInTimeFollowTheMesh) {
     // Steady cases have none of this.
     for (const cases::SolverCaseFile& file : openfoam_files(conditions))
         EXPECT_EQ(file.text.find("pimpleFoam"), std::string::npos) << file.name;
+}
+
+TEST(OpenFoamCase, TheAdjointIsThatOfTheForceAskedFor) {
+    const SolverConditions conditions = some_conditions(7);
+    const auto names = [&](const SolverCaseOptions& options) {
+        std::set<std::string> all;
+        for (const auto& file : openfoam_files(conditions, options)) all.insert(file.name.string());
+        return all;
+    };
+    for (const AdjointGoal goal : {AdjointGoal::drag, AdjointGoal::lift}) {
+        const auto files = openfoam_files(conditions, {.adjoint = goal});
+        const std::vector<double> direction =
+            numbers_in(value_of(text_of(files, "system/optimisationDict"), "direction"));
+        const bool of_lift = goal == AdjointGoal::lift;
+        EXPECT_NEAR(direction.at(of_lift ? 1 : 0), std::cos(7 * std::numbers::pi / 180), 1e-12);
+        EXPECT_NEAR(direction.at(of_lift ? 0 : 1), (of_lift ? -1 : 1) * std::sin(7 * std::numbers::pi / 180), 1e-12);
+        EXPECT_NE(text_of(files, "system/fvSchemes").find("div(-phi,Ua)"), std::string::npos);
+    }
+    EXPECT_EQ(names({}).count("Alladjoint"), 0u);
+    EXPECT_EQ(names({.adjoint = AdjointGoal::drag}).count("adjoint/nuaTilda"), 1u);
+    // No adjoint of the other models is there: their viscosity stays.
+    const SolverCaseOptions sst{.turbulence = TurbulenceModel::k_omega_sst, .adjoint = AdjointGoal::drag};
+    EXPECT_EQ(names(sst).count("adjoint/nuaTilda"), 0u);
+    EXPECT_EQ(value_of(text_of(openfoam_files(conditions, sst), "constant/adjointRASProperties"), "adjointRASModel"),
+              "adjointLaminar");
+    EXPECT_THROW(openfoam_files(conditions, {.unsteady = true, .adjoint = AdjointGoal::drag}), OptionError);
+    SolverConditions fast = conditions;
+    fast.reference.mach = 0.2;
+    EXPECT_THROW(openfoam_files(fast, {.compressible = true, .adjoint = AdjointGoal::drag}), OptionError);
+    EXPECT_THROW(cases::solver_case_files(FlowSolver::su2, case_mesh(), fast, {.adjoint = AdjointGoal::drag}),
+                 OptionError);
 }
 
 TEST(OpenFoamCase, InTimeIsIncompressible) {

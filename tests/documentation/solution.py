@@ -29,7 +29,10 @@ def array(name, kind, components, values):
 
 
 def write(mesh, path):
-    """Writes a VTU file with Mach, Pressure and U at the vertices of an SU2 mesh: a wake, and a decay to all sides."""
+    """Writes a VTU file with a flow at the vertices of an SU2 mesh: a wake, and a decay to all sides.
+
+    The arrays are Mach, Pressure, U, p, and Ua and pa, which stand for the adjoint.
+    """
     points, cells = read_su2(mesh)
     speed = [1 - math.exp(-4 * abs(y)) * (1 if x > 1 else 0.5) / (1 + x * x + y * y) for x, y in points]
     offsets, end = [], 0
@@ -45,7 +48,9 @@ def write(mesh, path):
         + array("types", "UInt8", 1, [{3: "5", 4: "9"}[len(cell)] for cell in cells]) + "</Cells>\n<PointData>\n"
         + array("Mach", "Float64", 1, [repr(0.15 * v) for v in speed])
         + array("Pressure", "Float64", 1, [repr(1 - v * v) for v in speed])
-        + array("U", "Float64", 3, [f"{v!r} 0 0" for v in speed]) + "</PointData>\n</Piece>\n"
+        + array("p", "Float64", 1, [repr(-v * v) for v in speed])
+        + array("pa", "Float64", 1, [repr(v) for v in speed])
+        + "".join(array(name, "Float64", 3, [f"{v!r} 0 0" for v in speed]) for name in ("U", "Ua")) + "</PointData>\n</Piece>\n"
         "</UnstructuredGrid></VTKFile>\n")
 
 

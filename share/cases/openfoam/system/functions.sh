@@ -2,13 +2,15 @@
 
 fail() { echo "Allrun: $*" >&2; exit 1; }
 
-# require PROGRAM: ends the run where OpenFOAM's program is missing, or where results are in the way.
+# require PROGRAM: ends the run where OpenFOAM's program is missing.
 require() {
     # Debian's OpenFOAM has no script that sets this variable, and its programs do not start without it.
     [ -n "$WM_PROJECT_DIR" ] || { [ -d /usr/share/openfoam/etc ] && export WM_PROJECT_DIR=/usr/share/openfoam; }
     command -v "$1" >/dev/null || fail "$1 is not in PATH: load OpenFOAM's environment first"
-    [ ! -d postProcessing ] || fail "there are results already: ./Allclean removes them"
 }
+
+# require_new: ends the run where results are in the way.
+require_new() { [ ! -d postProcessing ] || fail "there are results already: ./Allclean removes them"; }
 
 # run PROGRAM OPTION...: its output goes to log.PROGRAM
 run() { "$@" >"log.$1" 2>&1 || fail "$1 failed: see log.$1"; }
@@ -21,15 +23,16 @@ prepare_mesh() {
     echo "numberOfSubdomains $processes;" >system/processes
 }
 
-# solve LAST INTERVAL: goes on to this iteration, or time, and writes fields after each interval.
+# solve LAST INTERVAL: goes on to this iteration, or time, and writes fields after each interval. The solver gets the
+# arguments of the variable of this name, if there are any.
 solve() {
     printf 'endTime         %s;\nwriteInterval   %s;\n' "$1" "$2" >system/iterations
     if [ "$processes" -gt 1 ]; then
         # The far field is renewed in whole fields, so they are put together after each block.
         run decomposePar -force -latestTime
-        mpirun -np "$processes" $solver -parallel >>log.$solver 2>&1
+        mpirun -np "$processes" $solver $arguments -parallel >>log.$solver 2>&1
     else
-        $solver >>log.$solver 2>&1
+        $solver $arguments >>log.$solver 2>&1
     fi || fail "$solver failed before $1: see log.$solver"
     [ "$processes" = 1 ] || { run reconstructPar -newTimes && rm -rf processor[0-9]*; }
     [ -d "$1" ] || fail "$solver wrote no fields at $1: see log.$solver"
