@@ -199,7 +199,7 @@ TEST(Hints, Commands) {
     expect_refused(folder, {"xfoil"}, usage, "did you mean lamina flow?");
     expect_refused(folder, {"naca:0012"}, usage, "did you mean lamina mesh naca:0012?");
     expect_refused(folder, {"help", "mehs"}, usage, "did you mean lamina mesh?");
-    expect_refused(folder, {"xyzzy"}, usage, "known: mesh, family, sizes, adapt, batch, case, check");
+    expect_refused(folder, {"xyzzy"}, usage, "known: mesh, family, sizes, remesh, adapt, morph, batch, case");
 }
 
 TEST(Hints, ValuesAndFormats) {
