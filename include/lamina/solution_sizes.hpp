@@ -41,8 +41,10 @@ struct WallFlowOptions {
 
 /// The fields of an incompressible flow and of the adjoint solution of a goal, as the drag. They are at the same places.
 struct GoalOptions {
-    std::string velocity = "U", pressure = "p";                    ///< the pressure over the density
-    std::string adjoint_velocity = "Ua", adjoint_pressure = "pa";  ///< adjoints of momentum and of mass
+    std::string velocity = "U";           ///< name of the vectors of velocity
+    std::string pressure = "p";           ///< name of the pressure over the density
+    std::string adjoint_velocity = "Ua";  ///< name of the vectors that are the adjoint of momentum
+    std::string adjoint_pressure = "pa";  ///< name of the adjoint of mass
 
     /// Returns the names of the six fields: those of the flow, then those of the adjoint.
     std::vector<std::string> fields() const {

@@ -90,8 +90,11 @@ Derivatives fitted_derivatives(Point origin, const std::vector<Sample>& samples)
     }
     const Vector c = matrix.ldlt().solve(right);
     const double scale = 1 / (reach * reach);
-    if (!c.allFinite()) return {};
-    return {{c[1] / reach, c[2] / reach}, {2 * scale * c[3], scale * c[4], 2 * scale * c[5]}};
+    const Derivatives derivatives{{c[1] / reach, c[2] / reach}, {2 * scale * c[3], scale * c[4], 2 * scale * c[5]}};
+    const auto& [gradient, hessian] = derivatives;
+    for (const double value : {gradient.x, gradient.y, hessian.xx, hessian.xy, hessian.yy})
+        if (!std::isfinite(value)) return {};
+    return derivatives;
 }
 
 }  // namespace

@@ -175,6 +175,8 @@ std::vector<DomainStretch> stretches_of(const Mesh& mesh, VertexLoop loop) {
     std::size_t first = 0;
     while (first < n && is_side(first)) ++first;
     if (first == n) return {};
+    // What is no side begins behind one, wherever the loop does.
+    for (std::size_t k = 0; k < n && !is_side(first + n - 1); ++k) first = (first + n - 1) % n;
     std::vector<DomainStretch> stretches;
     for (std::size_t i = first; i < first + n; ++i) {
         if (i == first || begins(i)) stretches.push_back({{loop[i % n]}, is_side(i)});

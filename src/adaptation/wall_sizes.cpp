@@ -32,9 +32,9 @@ EdgeValues curvatures(const WallFlow& wall, const EdgeValues& values) {
     return roots;
 }
 
-/// Returns the spacing that this second derivative asks for with factor 1.
+/// Returns the spacing that this second derivative asks for with factor 1; it is infinite where there is no layer.
 double spacing(const WallFlowEdge& edge, double curvature, const ErrorNorm& norm) {
-    if (!(curvature > 0)) return HUGE_VAL;
+    if (!(curvature > 0 && edge.layers > 0)) return HUGE_VAL;
     const double p = norm.power();
     const double triangles = edge.layers * 2 * equilateral_area * norm.power_on_triangle(),
                  column = 2 * norm.power_on_line() * edge.layer_height;
@@ -47,7 +47,7 @@ double edges_asked(const std::vector<WallFlow>& walls, const std::vector<EdgeVal
     double edges = 0;
     for (std::size_t w = 0; w < walls.size(); ++w)
         for (std::size_t i = 0; i < walls[w].size(); ++i)
-            if (walls[w][i].layers > 0) edges += walls[w][i].length / spacing(walls[w][i], curvature[w][i], norm);
+            edges += walls[w][i].length / spacing(walls[w][i], curvature[w][i], norm);
     return edges;
 }
 

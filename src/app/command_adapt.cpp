@@ -62,6 +62,8 @@ void adapt(const AdaptArguments& arguments) {
     const MeshCase mesh_case = case_of_command_line(arguments.mesh);
     options.adjoint = goal_of(arguments, mesh_case);
     if (options.adjoint) settings.sizes.goal.emplace();
+    if (options.adjoint && (!settings.fields.empty() || !arguments.sizes.at("norm").empty()))
+        throw UsageError("option --goal: a force decides which errors count, without --field and --norm");
     if (is_given(mesh_case, "gradation")) settings.sizes.gradation = mesh_case.options.sizing.gradation;
     settings.identity = fmt::format("\n{}\n{}\n{}", arguments.solver, arguments.turbulence, arguments.goal);
     MeshCase without_outputs = mesh_case;

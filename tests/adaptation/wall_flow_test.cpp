@@ -157,6 +157,20 @@ TEST(WallFlow, TheNextMeshFollows) {
     EXPECT_GT(next.layer_coverage[0].all.made_cells, 0.99 * double(next.layer_coverage[0].all.requested_cells));
 }
 
+TEST(WallFlow, WallsWithoutLayersKeepTheirSpacings) {
+    CaseOptions options = near_options();
+    options.layer.enabled = false;
+    const MeshResult made = generate_mesh(one_section(), options);
+    const SolutionField pressure = field_of(made.mesh, [](Point p) { return p.x * p.x - p.y * p.y; });
+    SolutionSizeOptions size_options;
+    size_options.vertices = 2 * static_cast<double>(made.mesh.points.size());
+    size_options.walls = WallFlowOptions{"U", 1e-6};
+    const SolutionSizes sizes = solution_sizes(solution_with(made, false, {pressure}), size_options);
+    ASSERT_EQ(sizes.sizes.walls.size(), 1u);
+    const auto walls = adaptation::find_wall_flow(solution_with(made, false), {"U", 1e-6});
+    for (std::size_t i = 0; i < walls[0].size(); ++i) EXPECT_EQ(sizes.sizes.walls[0].spacings[i], walls[0][i].length);
+}
+
 /// The walls of a solution above no-slip ground are two, and the body takes its own alone.
 TEST(WallFlow, TheGroundAsksNothingOfTheBody) {
     CaseOptions options = near_options();

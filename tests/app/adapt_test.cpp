@@ -166,6 +166,7 @@ TEST(AdaptCommand, SaysWhatIsMissingBeforeTheFirstMesh) {
     expect_refused(folder, adapt({"--goal", "lift", "--mach", "0.2"}, "openfoam"), usage,
                    "in incompressible flow alone");
     expect_refused(folder, adapt({"--goal", "drags"}), usage, "drags");
+    expect_refused(folder, adapt({"--goal", "drag", "--norm", "4"}), usage, "without --field and --norm");
     expect_refused(folder, adapt({"--tolerance", "0"}), usage, "tolerance");
     const std::vector<std::string> before = folder.names();
     const ProgramRun plan = run_lamina(folder, adapt({"--dry-run"}));

@@ -1,6 +1,6 @@
-# What Allrun does with OpenFOAM's programs. It sets the variables that are used here.
+# What Allrun and Alladjoint do with OpenFOAM's programs. It sets the variables that are used here.
 
-fail() { echo "Allrun: $*" >&2; exit 1; }
+fail() { echo "${0##*/}: $*" >&2; exit 1; }
 
 # require PROGRAM: ends the run where OpenFOAM's program is missing.
 require() {
