@@ -146,7 +146,10 @@ nb::tuple remesh_by(const SharedMesh& mesh, const RowsArgument<double, 3>& tenso
         metric[i] = {row[0], row[1], row[2]};
     }
     RemeshedMesh made;
-    run_unlocked([&] { made = remesh(*mesh, metric, options); });
+    run_unlocked([&] {
+        require_valid(*mesh);
+        made = remesh(*mesh, metric, options);
+    });
     return nb::make_tuple(shared(std::move(made.mesh)), owning_array<double>(std::move(made.metric)), made.triangles,
                           made.unit_edges, made.mean_quality);
 }

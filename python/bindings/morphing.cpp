@@ -31,8 +31,7 @@ class SharedMorphMap {
 public:
     explicit SharedMorphMap(const SharedMesh& mesh) : mesh_(mesh) {
         run_unlocked([&] {
-            const MeshCheck check = check_mesh(*mesh_);
-            if (!check.valid()) throw MeshError("the mesh is not valid: " + check.defects[0].description);
+            require_valid(*mesh_);
             map_.emplace(*mesh_);
         });
     }

@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include <lamina/error.hpp>
 #include <lamina/mesh.hpp>
 
 namespace lamina::python {
@@ -15,5 +16,11 @@ struct SharedMesh {
 };
 
 inline SharedMesh shared(Mesh mesh) { return {std::make_shared<const Mesh>(std::move(mesh))}; }
+
+/// Throws MeshError where a mesh is not valid.
+inline void require_valid(const Mesh& mesh) {
+    const MeshCheck check = check_mesh(mesh);
+    if (!check.valid()) throw MeshError("the mesh is not valid: " + check.defects[0].description, check.defects[0].at);
+}
 
 }  // namespace lamina::python

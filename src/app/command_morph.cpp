@@ -135,6 +135,7 @@ void run_morph(const MorphArguments& arguments) {
     const MorphReport report = compare_morphed(map, result.points);
     MeshView morphed = reference;
     morphed.points = result.points;
+    print_warnings(lost_marker_warnings(reference.markers, arguments.output, arguments.options));
     write_mesh(morphed, arguments.output, arguments.options);
     if (!arguments.report.empty()) write_file(arguments.report, to_text(morph_json(result, report)));
     print_summary(morph_summary(arguments, result, report), outputs);

@@ -1,4 +1,5 @@
 // lamina remesh: a mesh adapted to a metric.
+#include <cassert>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -13,6 +14,7 @@
 #include <lamina/metric.hpp>
 #include <lamina/remesh.hpp>
 
+#include "app/check_report.hpp"
 #include "app/commands.hpp"
 #include "app/format_help.hpp"
 #include "app/options.hpp"
@@ -57,12 +59,10 @@ void remesh_file(const RemeshArguments& arguments) {
         outputs.push_back({file, "option --output"});
     require_distinct(inputs, outputs);
     const SignalGuard guard(outputs);
-    const Mesh mesh = read_mesh(arguments.mesh, {.format = arguments.input_format});
+    const Mesh mesh = read_valid_mesh(arguments.mesh, arguments.input_format);
     const RemeshedMesh made = remesh(mesh, read_metric(arguments.metric), options);
     const MeshCheck check = check_mesh(made.mesh);
-    if (!check.valid())
-        throw MeshError(fmt::format("{}: {}", input_name(arguments.mesh), check.defects.front().description),
-                        check.defects.front().at);
+    assert(check.valid());
     print_warnings(lost_marker_warnings(made.mesh.markers, arguments.output, arguments.options));
     write_mesh(made.mesh, arguments.output, arguments.options);
     print_summary(remesh_summary(made, check, arguments), outputs);
