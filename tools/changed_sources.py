@@ -59,6 +59,8 @@ def source_with(header, by_header):
 def main():
     before = sys.argv[1] if len(sys.argv) > 1 else base()
     changed = git("diff", "--name-only", "--diff-filter=d", before) if before else None
+    if changed is not None:
+        changed += git("ls-files", "--others", "--exclude-standard", "src", "include") or []
     if changed is None or ".clang-tidy" in changed:
         changed = git("ls-files", "src") or []
     sources = {f for f in changed if re.fullmatch(r"src/.*\.cpp", f)}

@@ -91,7 +91,7 @@ def noticed_by(program, choice, folder):
 def main():
     build, names = pathlib.Path(sys.argv[1]).resolve(), set(sys.argv[2:])
     faults = tomllib.loads((SOURCE / "tools/seeded_faults.toml").read_text())["fault"]
-    unnoticed = 0
+    unnoticed, failed = 0, False
     print("| fault | file | noticed by |\n|---|---|---|")
     for fault in faults:
         if names and fault["name"] not in names:
@@ -106,12 +106,12 @@ def main():
                     if found := noticed_by(linked, choice or "*", folder):
                         found = f"test: {found}"
                         break
-            except subprocess.CalledProcessError as error:
-                found = f"error of this tool: {error}"[:200]
+            except (subprocess.CalledProcessError, StopIteration, ValueError) as error:
+                found, failed = f"error of this tool: {error!r}"[:200], True
         if not found and "harmless" not in fault:
             unnoticed += 1
         print(f"| {fault['name']} | {fault['file']} | {found or 'nothing' + fault.get('harmless', '')} |", flush=True)
-    sys.exit(unnoticed > 0)
+    sys.exit(unnoticed > 0 or failed)
 
 
 if __name__ == "__main__":
