@@ -153,8 +153,8 @@ struct FlowDecisions {
     std::vector<FlowSpacing> spacings;  ///< of each element whose wall was resampled, if the flow asks for any there
     std::vector<FlowShock> shocks;      ///< beyond the critical Mach number
     bool knows_shocks = false;  ///< whether compressible flow before the mesh became steady, and said where they are
-    /// Per element the largest skin friction times the wall's density, both by the free stream, where first heights follow
-    /// from compressible flow; else empty.
+    /// Per element the largest skin friction times the wall's density, both by the free stream, where compressible flow with
+    /// boundary layers was found: first heights for a y+ follow from these. Else empty.
     std::vector<double> frictions{};
 };
 

@@ -29,7 +29,7 @@ std::vector<Warning> find_speed_warnings(double mach, const Flow* flow, bool kno
     if (mach >= 1) return {unsuited_speed(mach, ": sizes follow no shocks: compare with finer meshes (lamina family)")};
     double length = 0;
     if (flow != nullptr && !flow->estimated && mach > 0) length = flow::supersonic_length(*flow, mach);
-    if ((mach <= largest_mach && length <= longest)) return {};
+    if (mach <= largest_mach && length <= longest) return {};
     const std::string where =
         length > longest
             ? fmt::format(", where the flow is expected to be supersonic along {:.2f} chords of the walls", length)

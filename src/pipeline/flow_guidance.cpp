@@ -12,6 +12,7 @@
 
 #include "flow/corner_peaks.hpp"
 #include "flow/euler/euler.hpp"
+#include "flow/euler/lag_entrainment.hpp"
 #include "flow/potential.hpp"
 #include "flow/separation.hpp"
 #include "geometry/sheets.hpp"
@@ -156,10 +157,9 @@ std::vector<double> first_heights_for(std::span<const double> frictions, double 
 
 /// Returns the skin friction at a point of a wall times its density, both by the free stream of this Mach number.
 double friction_times_density(const CompressibleWallPoint& p, double mach) {
-    constexpr double recovery = 0.89;
     const double pressure = 1 + 0.7 * mach * mach * p.pressure_coefficient;
     const double edge_temperature = (1 + 0.2 * mach * mach) / (1 + 0.2 * p.mach * p.mach);
-    return p.skin_friction * pressure / (edge_temperature * (1 + 0.2 * recovery * p.mach * p.mach));
+    return p.skin_friction * pressure / (edge_temperature * (1 + 0.2 * flow::euler::recovery_factor * p.mach * p.mach));
 }
 
 }  // namespace
@@ -183,6 +183,8 @@ std::vector<double> wall_frictions(const CompressibleFlow& flow) {
         for (const CompressibleWallPoint* corner : {&above, &below})
             largest = std::max(largest, flow::friction_rise_at_corners * friction_times_density(*corner, flow.mach));
     }
+    // No height follows where the flow is separated all along an element.
+    if (std::any_of(frictions.begin(), frictions.end(), [](double friction) { return !(friction > 0); })) return {};
     return frictions;
 }
 

@@ -24,9 +24,16 @@ void refine_surface(double ratio, SurfaceOptions& surface) {
     if (surface.treatment == SurfaceTreatment::keep)
         throw OptionError("surface", "must be auto or resample: points that are kept make no similar mesh");
     surface.treatment = SurfaceTreatment::resample;
-    if (surface.points) surface.points = std::max<std::size_t>(3, std::llround(ratio * double(*surface.points)));
-    if (surface.base_edges)
-        surface.base_edges = std::max<std::size_t>(1, std::llround(ratio * double(*surface.base_edges)));
+    const auto multiply = [&](std::size_t& count, std::size_t least) {
+        count = std::max<std::size_t>(least, std::llround(ratio * double(count)));
+    };
+    if (surface.points) multiply(*surface.points, 3);
+    if (surface.base_edges) multiply(*surface.base_edges, 1);
+    for (SideEdges& edges : surface.side_edges) {
+        multiply(edges.upper, 1);
+        multiply(edges.lower, 1);
+        if (edges.base) multiply(*edges.base, 1);
+    }
     surface.max_ratio = core::pow_reproducible(surface.max_ratio, 1 / ratio);
     for (double* length :
          {&surface.max_turning_deg, &surface.gradation, &surface.max_spacing, &surface.sharp_corner_spacing,

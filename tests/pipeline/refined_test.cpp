@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,19 @@ TEST(Refined, KeepsTheHeightOfAllLayersWhereNumbersAreRounded) {
                 const double height = layer_height(before, layers);
                 EXPECT_NEAR(layer_height(after, *after.layers), height, 1e-6 * height);
             }
+}
+
+TEST(Refined, MultipliesNumbersOfWallEdges) {
+    CaseOptions options;
+    options.surface.side_edges = {{.upper = 60, .lower = 41, .base = 3}, {.upper = 20, .lower = 20, .element = "flap"}};
+    const std::vector<SideEdges> fine = refined(options, 1.5).surface.side_edges;
+    ASSERT_EQ(fine.size(), 2u);
+    EXPECT_EQ(fine[0].upper, 90u);
+    EXPECT_EQ(fine[0].lower, 62u);
+    EXPECT_EQ(fine[0].base, std::optional<std::size_t>(5));
+    EXPECT_EQ(fine[1].upper, 30u);
+    EXPECT_EQ(fine[1].base, std::nullopt);
+    EXPECT_EQ(fine[1].element, "flap");
 }
 
 TEST(Refined, RefusesWhatHasNoSimilarMesh) {

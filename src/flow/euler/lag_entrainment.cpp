@@ -9,9 +9,6 @@ namespace lamina::flow::euler {
 
 namespace {
 
-/// Ratio of the temperature that a wall without heat flux has above that of the edge to that of gas at rest.
-constexpr double recovery = 0.89;
-
 /// The friction and the shape factor of a plate.
 struct Plate {
     double friction, shape;
@@ -33,11 +30,11 @@ double shear_stress(double entrainment, double plate_friction, double mach2) {
 
 }  // namespace
 
-double compressible_shape(double shape, double mach) { return (shape + 1) * (1 + 0.2 * recovery * mach * mach) - 1; }
+double compressible_shape(double shape, double mach) { return (shape + 1) * (1 + 0.2 * recovery_factor * mach * mach) - 1; }
 
 LayerRates layer_rates(const ShearLayer& layer, const LayerEdge& edge, LayerKind kind) {
     const bool wall = kind == LayerKind::wall;
-    const double mach2 = edge.mach * edge.mach, heated = 1 + 0.2 * recovery * mach2, cooled = 1 + 0.2 * mach2;
+    const double mach2 = edge.mach * edge.mach, heated = 1 + 0.2 * recovery_factor * mach2, cooled = 1 + 0.2 * mach2;
     const double t = layer.shape - 1, ce = layer.entrainment;  // t > 0
     const Plate plate = wall ? plate_of(edge.unit_reynolds * layer.momentum, mach2) : Plate{0, 1};
     const double h = compressible_shape(layer.shape, edge.mach);
@@ -68,7 +65,7 @@ LayerRates layer_rates(const ShearLayer& layer, const LayerEdge& edge, LayerKind
     // d(density x speed x momentum x h) / (density x speed), with dM = M (1 + 0.2 M^2) d(speed) / speed.
     rates.displaced_flux = {layer.momentum * heated * rates.transformed.steady + h * rates.momentum.steady,
                             layer.momentum * heated * rates.transformed.per_acceleration +
-                                0.4 * recovery * (layer.shape + 1) * mach2 * cooled +
+                                0.4 * recovery_factor * (layer.shape + 1) * mach2 * cooled +
                                 h * (rates.momentum.per_acceleration + 1 - mach2)};
     return rates;
 }

@@ -7,6 +7,9 @@
 
 namespace lamina::flow::euler {
 
+/// Ratio of the temperature that a wall without heat flux has above that of the edge to that of gas at rest.
+inline constexpr double recovery_factor = 0.89;
+
 /// The state of a turbulent layer.
 struct ShearLayer {
     double momentum = 0;     ///< momentum thickness
