@@ -52,8 +52,10 @@ def remesh(mesh: Mesh, metric, *, divide_borders: bool = False, vertices: float 
 def _tensors(metric) -> np.ndarray:
     array = np.asarray(metric, dtype=np.float64)
     if array.ndim == 1:
-        with np.errstate(divide="ignore", invalid="ignore"):
-            eigenvalue = np.where(array > 0, array, np.nan) ** -2.0
+        # As files of sizes are read; a power would be that of the C library.
+        sizes = np.where(array > 0, array, np.nan)
+        with np.errstate(divide="ignore", over="ignore", under="ignore"):
+            eigenvalue = 1 / (sizes * sizes)
         array = np.stack([eigenvalue, np.zeros_like(eigenvalue), eigenvalue], axis=1)
     elif array.ndim == 3 and array.shape[1:] == (2, 2):
         array = np.stack([array[:, 0, 0], 0.5 * (array[:, 0, 1] + array[:, 1, 0]), array[:, 1, 1]], axis=1)

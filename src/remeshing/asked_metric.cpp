@@ -7,6 +7,7 @@
 
 #include <lamina/error.hpp>
 
+#include "core/interruption_point.hpp"
 #include "remeshing/metric.hpp"
 #include "remeshing/region.hpp"
 
@@ -47,8 +48,10 @@ public:
         constexpr double noticeable = 1.001;
         std::deque<std::uint32_t> waiting;
         std::vector<char> waits(metric.size(), 1);
+        constexpr std::size_t vertices_per_look = 4096;
         for (std::uint32_t v = 0; v < metric.size(); ++v) waiting.push_back(v);
-        while (!waiting.empty()) {
+        for (std::size_t step = 0; !waiting.empty(); ++step) {
+            if (step % vertices_per_look == 0) core::check_interruption();
             const std::uint32_t v = waiting.front();
             waiting.pop_front();
             waits[v] = 0;
@@ -73,24 +76,28 @@ private:
     std::vector<std::uint32_t> neighbours_;  ///< those inside the region twice
 };
 
-}  // namespace
-
-std::vector<MetricTensor> asked_metric(const MeshView& mesh, std::span<const MetricTensor> metric,
-                                       const RemeshOptions& options) {
+void require_metrics(const MeshView& mesh, std::span<const MetricTensor> metric) {
     if (metric.size() != mesh.points.size())
         throw InputError({}, fmt::format("{} metric tensors for {} vertices", metric.size(), mesh.points.size()));
-    std::vector<MetricTensor> result;
-    result.reserve(metric.size());
-    for (std::size_t v = 0; v < metric.size(); ++v) {
+    for (std::size_t v = 0; v < metric.size(); ++v)
         if (!is_metric(metric[v]))
             throw InputError({.at = mesh.points[v], .points = {v}},
                              fmt::format("metric ({}, {}, {}) of vertex {}: must be finite and positive definite",
                                          metric[v].xx, metric[v].xy, metric[v].yy, v));
-        result.push_back(with_ratio(metric[v], options.max_ratio));
-    }
+}
+
+}  // namespace
+
+std::vector<MetricTensor> asked_metric(const MeshView& mesh, std::span<const MetricTensor> metric,
+                                       const RemeshOptions& options) {
+    require_metrics(mesh, metric);
+    std::vector<MetricTensor> result;
+    result.reserve(metric.size());
+    for (const MetricTensor& m : metric) result.push_back(with_ratio(m, options.max_ratio));
     if (options.vertices) {
         const double scale = *options.vertices / vertices_of_metric(mesh, result);
         for (MetricTensor& m : result) m = scale * m;
+        require_metrics(mesh, result);
     }
     if (options.gradation) Gradation(mesh, *options.gradation).apply(result);
     return result;
@@ -102,7 +109,10 @@ namespace lamina {
 
 using namespace remeshing;
 
-double vertices_of_metric(const MeshView& mesh, std::span<const MetricTensor> metric) {
+double vertices_of_metric(const MeshView& given, std::span<const MetricTensor> metric) {
+    require_metrics(given, metric);
+    const MeshWithRegions with_regions(given);
+    const MeshView& mesh = with_regions.view();
     double complexity = 0;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         if (!is_remeshed(mesh, t)) continue;

@@ -1,4 +1,4 @@
-// Metric tensors: logarithms, lengths and shapes.
+// Metric tensors: sizes, lengths and shapes.
 #pragma once
 
 #include <algorithm>

@@ -110,6 +110,7 @@ void Passes::swap_an_edge_of(std::uint32_t t) {
 
 void Passes::swap_diagonals() {
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+        if (t % triangles_per_look == 0) core::check_interruption();
         while (mesh_.triangles[t].is_used() && !mesh_.triangles[t].is_settled) {
             mesh_.triangles[t].is_settled = true;
             swap_an_edge_of(t);
@@ -150,6 +151,7 @@ bool Passes::contract(std::uint32_t v, std::uint32_t onto) {
 std::size_t Passes::contract_short() {
     std::size_t removed = 0;
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+        if (t % triangles_per_look == 0) core::check_interruption();
         const MeshTriangle& triangle = mesh_.triangles[t];
         for (unsigned e = 0; triangle.is_used() && e < 3; ++e) {
             const std::uint32_t a = triangle.v[after(e)], b = triangle.v[before(e)];
@@ -213,7 +215,10 @@ void Passes::move(std::uint32_t v) {
 }
 
 void Passes::move_vertices() {
-    for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v) move(v);
+    for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v) {
+        if (v % triangles_per_look == 0) core::check_interruption();
+        move(v);
+    }
 }
 
 }  // namespace lamina::remeshing

@@ -1,6 +1,7 @@
 #include "remeshing/region.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -181,7 +182,12 @@ MetricTensor lowered_along(const MetricTensor& m, Point edge) {
     if (squared <= 2) return m;
     const Point image{m.xx * edge.x + m.xy * edge.y, m.xy * edge.x + m.yy * edge.y};
     const double share = (1 - 2 / squared) / squared;
-    return {m.xx - share * image.x * image.x, m.xy - share * image.x * image.y, m.yy - share * image.y * image.y};
+    const MetricTensor lowered{m.xx - share * image.x * image.x, m.xy - share * image.x * image.y,
+                               m.yy - share * image.y * image.y};
+    if (is_metric(lowered)) return lowered;
+    // The difference was rounded away. As long an edge in all directions is larger still.
+    const double isotropic = 2 / squared_length(edge);
+    return {isotropic, 0, isotropic};
 }
 
 /// Makes the mesh with the region put back.
@@ -281,6 +287,7 @@ private:
         }
         do {
             const VertexId to = std::exchange(next[at.index()], VertexId{});
+            assert(to.valid());
             edges.push_back({at, to});
             at = to;
         } while (at.index() >= old_vertices_);

@@ -12,6 +12,24 @@
 
 namespace lamina::remeshing {
 
+/// A view of a mesh with regions: those that it has, or estimate_regions().
+class MeshWithRegions {
+public:
+    explicit MeshWithRegions(const MeshView& mesh) : view_(mesh) {
+        if (!mesh.region.empty()) return;
+        estimated_ = estimate_regions(mesh);
+        view_.region = estimated_;
+    }
+    MeshWithRegions(const MeshWithRegions&) = delete;
+    MeshWithRegions& operator=(const MeshWithRegions&) = delete;
+
+    const MeshView& view() const { return view_; }
+
+private:
+    std::vector<Region> estimated_;
+    MeshView view_;
+};
+
 /// Returns whether a cell is remeshed: a triangle that is not of the layer.
 bool is_remeshed(const MeshView& mesh, std::size_t cell);
 

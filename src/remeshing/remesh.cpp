@@ -44,7 +44,8 @@ void measure(const MetricMesh& mesh, RemeshedMesh& result) {
         const MeshTriangle& triangle = mesh.triangles[t];
         if (!triangle.is_used()) continue;
         ++result.triangles;
-        result.mean_quality += 1 / std::sqrt(static_cast<double>(triangle.distortion));
+        // Rounding may leave nothing of the area of a sliver.
+        if (triangle.distortion > 0) result.mean_quality += 1 / std::sqrt(static_cast<double>(triangle.distortion));
         for (unsigned e = 0; e < 3; ++e) {
             if (!is_border(triangle.n[e]) && triangle_of(triangle.n[e]) < t) continue;
             const double length = mesh.edge_length(triangle.v[after(e)], triangle.v[before(e)]);
@@ -64,10 +65,12 @@ namespace lamina {
 
 using namespace remeshing;
 
-RemeshedMesh remesh(const MeshView& mesh, std::span<const MetricTensor> metric, const RemeshOptions& options) {
+RemeshedMesh remesh(const MeshView& given, std::span<const MetricTensor> metric, const RemeshOptions& options) {
     validate(options);
+    const MeshWithRegions with_regions(given);
+    const MeshView& mesh = with_regions.view();
     const std::vector<MetricTensor> asked = asked_metric(mesh, metric, options);
-    if (2 * vertices_of_metric(mesh, asked) > static_cast<double>(most_triangles)) refuse_more_triangles();
+    if (!(2 * vertices_of_metric(mesh, asked) <= static_cast<double>(most_triangles))) refuse_more_triangles();
     MetricMesh region = take_region(mesh, asked, options.divide_borders);
     limit_at_frozen_edges(region);
     if (region.triangles.empty()) throw MeshError("the mesh has no triangles beyond its layer");

@@ -1,11 +1,13 @@
 // Remeshing: valid meshes, borders and layers that stay, lengths and shapes as asked for.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
 #include <set>
 #include <string>
+#include <vector>
 
 #include <lamina/error.hpp>
 #include <lamina/pipeline.hpp>
@@ -212,6 +214,43 @@ TEST(Remesh, MetricsThatAreNoneAreRefusedByPlace) {
     EXPECT_THROW(remesh(mesh, good, {.max_ratio = 0.5}), OptionError);
     EXPECT_THROW(remesh(mesh, good, {.vertices = 1e30}), OptionError);
     EXPECT_THROW(remesh(annulus({.rings = 3, .layer_rings = 3}), std::vector<MetricTensor>(96)), MeshError);
+}
+
+TEST(Remesh, LayersOfMeshesWithoutRegionsStay) {
+    Mesh mesh = airfoil_mesh(true);
+    std::set<Coordinates> thin;
+    for (const Triangle& t : mesh.triangles) {
+        const Region region = mesh.region[static_cast<std::size_t>(&t - mesh.triangles.data())];
+        const Point a = mesh.points[t.v[0].index()], b = mesh.points[t.v[1].index()];
+        // Cells with a ratio of 5 are those of the layer by their shape.
+        const Point c = mesh.points[t.v[2].index()];
+        const double longest = std::max({distance(a, b), distance(b, c), distance(c, a)});
+        if (region == Region::layer && longest * longest > 10 * cross(b - a, c - a)) thin.insert({a.x, a.y, b.x, b.y});
+    }
+    mesh.region.clear();
+    mesh.layer.clear();
+    const RemeshedMesh made = remesh(mesh, std::vector<MetricTensor>(mesh.points.size(), MetricTensor{4, 0, 4}), {});
+    EXPECT_TRUE(check_mesh(made.mesh).valid());
+    std::set<Coordinates> kept;
+    for (const Triangle& t : made.mesh.triangles) {
+        const Point a = made.mesh.points[t.v[0].index()], b = made.mesh.points[t.v[1].index()];
+        kept.insert({a.x, a.y, b.x, b.y});
+    }
+    ASSERT_GT(thin.size(), 100u);
+    for (const Coordinates& edge : thin) EXPECT_EQ(kept.count(edge), 1u) << edge[0] << ' ' << edge[1];
+}
+
+/// Beside a border that stays, a metric that asks for edges 1e8 times as short is lowered, and stays one.
+TEST(Remesh, ImmenseMetricsAtBordersStayPositive) {
+    const Mesh mesh = airfoil_mesh(true);
+    RemeshOptions options;
+    options.vertices = 2'000;
+    std::vector<MetricTensor> metric(mesh.points.size(), MetricTensor{1, 0, 1});
+    for (const VertexId v : wall_vertices(mesh).vertex) metric[v.index()] = {1e20, 0, 1e20};
+    const RemeshedMesh made = remesh(mesh, metric, options);
+    EXPECT_TRUE(check_mesh(made.mesh).valid());
+    for (const MetricTensor& m : made.metric) EXPECT_TRUE(m.xx > 0 && m.xx * m.yy - m.xy * m.xy > 0);
+    EXPECT_TRUE(std::isfinite(made.mean_quality));
 }
 
 }  // namespace
