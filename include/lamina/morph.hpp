@@ -8,6 +8,7 @@
 //     machine and any number of threads.
 // Limits:
 //  1. The outer boundary, and all markers that are no walls, stay. Lines inside the mesh move with it.
+//     In slots that close, rays get shorter beyond their first ten layers.
 //  2. A map is one step from its reference mesh. Motions that turn a cell over end before that, or with a MeshError.
 // Example:
 //     const Mesh mesh = generate_mesh({"naca:0012:80"}, {.layer = {.first_height = 1e-3, .layers = 8}}).mesh;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include <lamina/error.hpp>
+
 #include "core/bounding_box.hpp"
 #include "morphing/complex.hpp"
 
@@ -69,6 +71,7 @@ MotionField::MotionField(const Mesh& mesh, const Rays& rays, std::span<const Poi
     const auto couple = [&](VertexId a, VertexId b, VertexId c) {
         const Point p = mesh.points[c.index()], to_a = mesh.points[a.index()] - p, to_b = mesh.points[b.index()] - p;
         const double twice_area = cross(to_a, to_b);
+        if (!(twice_area > 0)) throw MeshError("a triangle is too flat for a field to be found on it", p);
         const double value = 0.5 * dot(to_a, to_b) / (twice_area * std::sqrt(twice_area));
         const std::array ends{a.index(), b.index()};
         for (std::size_t k = 0; k < 2; ++k) {

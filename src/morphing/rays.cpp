@@ -49,7 +49,7 @@ private:
     std::vector<std::uint32_t> vertex_;
 };
 
-/// Marks the vertices of the boundary that no wall has: they stay where they are.
+/// Marks the vertices of the boundary. Those that no wall has stay where they are.
 std::vector<bool> find_other_boundary(const Mesh& mesh) {
     std::vector<bool> found(mesh.points.size(), false);
     for (const Marker& marker : mesh.markers)

@@ -2,10 +2,13 @@
 #include <lamina/morph.hpp>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <string>
+#include <tuple>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <fmt/format.h>
@@ -139,6 +142,10 @@ std::vector<Point> wall_points_on(const MorphMap& map, const Geometry& shape) {
 }
 
 std::vector<Point> moved_wall_points(const MorphMap& map, std::span<const Transformation> changes) {
+    for (const Transformation& change : changes)
+        if (std::holds_alternative<FlapDeflection>(change.change))
+            throw InputError({.element = change.element},
+                             "a flap takes points of the wall or adds some: give the shape with its flap");
     const std::vector<Body> bodies = closed_bodies(map);
     Geometry geometry;
     for (const Body& body : bodies) {
@@ -150,10 +157,7 @@ std::vector<Point> moved_wall_points(const MorphMap& map, std::span<const Transf
     std::vector<Point> wall = map.wall_points();
     for (std::size_t b = 0; b < bodies.size(); ++b) {
         const std::vector<Point>& points = geometry.elements[b].points;
-        if (points.size() != bodies[b].count)
-            throw InputError({.element = bodies[b].name},
-                             "a flap takes points of the wall or adds some: give the shape "
-                             "with its flap");
+        assert(points.size() == bodies[b].count);
         put(points, bodies[b], wall);
     }
     return wall;

@@ -28,6 +28,9 @@ TEST(Morph, WallsThatStayLeaveEveryBit) {
         EXPECT_TRUE(have_same_bits(result.points, mesh.points));
         EXPECT_EQ(result.fraction, 1);
     }
+    const Mesh slot = mesh_with_slot();
+    const MorphMap map(slot);
+    EXPECT_TRUE(have_same_bits(morph(map, map.wall_points()).points, slot.points));
 }
 
 TEST(Morph, LayersMoveAsRigidBodies) {
