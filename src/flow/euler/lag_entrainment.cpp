@@ -30,7 +30,9 @@ double shear_stress(double entrainment, double plate_friction, double mach2) {
 
 }  // namespace
 
-double compressible_shape(double shape, double mach) { return (shape + 1) * (1 + 0.2 * recovery_factor * mach * mach) - 1; }
+double compressible_shape(double shape, double mach) {
+    return (shape + 1) * (1 + 0.2 * recovery_factor * mach * mach) - 1;
+}
 
 LayerRates layer_rates(const ShearLayer& layer, const LayerEdge& edge, LayerKind kind) {
     const bool wall = kind == LayerKind::wall;
