@@ -18,6 +18,7 @@
 #include "app/commands.hpp"
 #include "app/format_help.hpp"
 #include "app/mesh_command_options.hpp"
+#include "app/progress.hpp"
 #include "app/report.hpp"
 #include "app/run_files.hpp"
 #include "app/standard_output.hpp"
