@@ -50,7 +50,7 @@ struct SolverCaseOptions {
     /// step the free stream crosses one edge of a triangle of the wake. OpenFOAM's is for incompressible flow.
     bool unsteady = false;
     /// The force whose adjoint solution OpenFOAM's steady incompressible case finds by Alladjoint, after Allrun; empty: none.
-    /// That of the turbulence model is a part of it for Spalart-Allmaras; for the other one the viscosity stays.
+    /// The adjoint of Spalart-Allmaras is a part of it; with k-omega SST the turbulent viscosity counts as given.
     std::optional<AdjointGoal> adjoint{};
 };
 

@@ -12,7 +12,7 @@
 
 namespace lamina::morphing {
 
-/// What a wall vertex sees along its highest ray: a place on a wall, at `share` of the way along an edge.
+/// The place on a wall that a wall vertex sees along its highest ray: a point of an edge between two wall vertices.
 struct Gap {
     Segment across;     ///< places of the edge's ends among the wall vertices
     double share = 0;   ///< from 0 at its first end to 1 at its second

@@ -2,7 +2,6 @@
 #include <lamina/morph.hpp>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <limits>

@@ -18,12 +18,9 @@ constexpr std::uint32_t not_free = no_ray;
 
 /// Returns, per vertex, its number among the unknowns: the vertices that are on no ray and not on the boundary.
 std::vector<std::uint32_t> number_free(const Mesh& mesh, const Rays& rays) {
-    std::vector<bool> held(mesh.points.size(), false);
-    for (std::size_t v = 0; v < held.size(); ++v) held[v] = rays.of_vertex[v] != no_ray;
-    for (const Marker& marker : mesh.markers) {
-        if (marker.kind == MarkerKind::internal) continue;
-        for (const Segment& edge : marker.edges) held[edge.a.index()] = held[edge.b.index()] = true;
-    }
+    std::vector<bool> held = boundary_vertices(mesh);
+    for (std::size_t v = 0; v < held.size(); ++v)
+        if (rays.of_vertex[v] != no_ray) held[v] = true;
     std::vector<std::uint32_t> number(held.size(), not_free);
     std::uint32_t next = 0;
     for (std::size_t v = 0; v < held.size(); ++v)

@@ -49,15 +49,6 @@ private:
     std::vector<std::uint32_t> vertex_;
 };
 
-/// Marks the vertices of the boundary. Those that no wall has stay where they are.
-std::vector<bool> find_other_boundary(const Mesh& mesh) {
-    std::vector<bool> found(mesh.points.size(), false);
-    for (const Marker& marker : mesh.markers)
-        if (marker.kind != MarkerKind::internal)
-            for (const Segment& edge : marker.edges) found[edge.a.index()] = found[edge.b.index()] = true;
-    return found;
-}
-
 /// Returns, per vertex, the lowest layer that it has a cell of; nothing where the layers of the cells are not known.
 std::vector<std::uint16_t> lowest_layers(const Mesh& mesh) {
     if (mesh.layer.empty()) return {};
@@ -180,11 +171,19 @@ private:
 
 }  // namespace
 
+std::vector<bool> boundary_vertices(const Mesh& mesh) {
+    std::vector<bool> found(mesh.points.size(), false);
+    for (const Marker& marker : mesh.markers)
+        if (marker.kind != MarkerKind::internal)
+            for (const Segment& edge : marker.edges) found[edge.a.index()] = found[edge.b.index()] = true;
+    return found;
+}
+
 Rays find_rays(const Mesh& mesh, const WallVertices& walls, std::span<const Segment> edges) {
     std::vector<Region> region = mesh.region.empty() ? estimate_regions(mesh) : mesh.region;
     if (region.empty()) region.assign(mesh.triangles.size() + mesh.quads.size(), Region::isotropic);
     const Neighbours neighbours(mesh, region);
-    const std::vector<bool> fixed = find_other_boundary(mesh);
+    const std::vector<bool> fixed = boundary_vertices(mesh);
     const std::vector<double> height = wall_distances(mesh);
     std::vector<std::uint32_t> outwards;
     for (std::size_t v = 0; v < mesh.points.size(); ++v)

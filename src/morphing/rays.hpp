@@ -37,6 +37,9 @@ struct Rays {
     std::vector<std::uint32_t> of_vertex;  ///< per vertex of the mesh: its ray, or no_ray
 };
 
+/// Returns, per vertex, whether it is on the boundary, walls included.
+std::vector<bool> boundary_vertices(const Mesh& mesh);
+
 /// Finds the rays. `edges` are those of edges_of_walls(). A mesh without regions has those that estimate_regions()
 /// finds.
 Rays find_rays(const Mesh& mesh, const WallVertices& walls, std::span<const Segment> edges);

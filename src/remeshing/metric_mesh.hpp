@@ -40,7 +40,7 @@ constexpr EdgeHandle edge_handle(std::uint32_t triangle, unsigned edge) { return
 constexpr unsigned after(unsigned i) { return i == 2 ? 0 : i + 1; }
 constexpr unsigned before(unsigned i) { return i == 0 ? 2 : i - 1; }
 
-/// What may become of a vertex.
+/// Which changes a vertex allows while the mesh is adapted.
 enum class Freedom : std::uint8_t {
     free,     ///< it may move and vanish
     on_line,  ///< inside a straight line of the boundary that may be divided: it may move along it, and vanish
