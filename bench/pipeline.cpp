@@ -40,7 +40,7 @@ Work triangle_outside_the_layer(const CaseOptions& options) {
     const layers::Layer layer =
         layers::make_layer(geometry, options.layer, growth, pipeline::border_options(options, 1, {}));
     const SizeField field = sizing::make_size_field(border_loops(layer), {}, options.sizing, 1, far_field.box());
-    const decoupling::Decoupling outer = decoupling::decouple(layer.points, layer.borders, field, far_field);
+    const decoupling::Decoupling outer = decoupling::decouple({layer.points, layer.borders, field, far_field});
 
     std::vector<Point> points;
     std::vector<VertexId> new_id(outer.points.size());

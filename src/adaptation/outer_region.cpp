@@ -290,7 +290,7 @@ std::size_t count_vertices(const OuterRegion& region, const SizedMesh& sizes) {
     std::vector<VertexLoop> borders = region.borders;
     if (!region.domain.empty()) borders.push_back(close_domain(region.domain, field, points));
     const decoupling::Decoupling decoupling =
-        decoupling::decouple(points, borders, field, region.far_field, {}, refine_options);
+        decoupling::decouple({points, borders, field, region.far_field}, refine_options);
     std::size_t vertices = region.inside_vertices + decoupling.points.size();
     for (const Refinement& refinement : refine(decoupling.subdomains)) vertices += refinement.steiner_points.size();
     return vertices;

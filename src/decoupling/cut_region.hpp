@@ -41,16 +41,6 @@ struct LAMINA_EXPORT CutRegion {
     }
 };
 
-/// The outer region with what decides how it is cut: the arguments of decouple().
-struct OuterRegion {
-    std::span<const Point> points;
-    std::span<const std::vector<VertexId>> borders;
-    const SizeField& size;
-    const FarField& far_field;
-    const DecouplingOptions& options;
-    InnerLines inner{};  ///< lines inside it that become edges of the mesh
-};
-
 /// BesideCuts holds functions that cut_region() calls on each process while it cuts, where they are given.
 struct BesideCuts {
     std::function<void()> once_numbered{};  ///< called once, when all have waited for each other and none makes pieces

@@ -172,28 +172,27 @@ Subdomain make_subdomain(const LineBorder& line_border, const WorkEstimate* know
     return subdomain;
 }
 
-double estimate_triangles(std::span<const Point> points, std::span<const std::vector<VertexId>> borders,
-                          const SizeField& size, const FarField& far_field) {
+double estimate_triangles(const OuterRegion& region) {
+    const FarField& far_field = region.far_field;
     // Throws where there is no room.
-    near_body_box(box_round_bodies(points, borders, far_field), inscribed_box(far_field), far_field);
-    Skeleton skeleton = start_skeleton(points, borders);
+    near_body_box(box_round_bodies(region.points, region.borders, far_field), inscribed_box(far_field), far_field);
+    Skeleton skeleton = start_skeleton(region.points, region.borders);
     if (!far_field.has_walls()) skeleton.add_new_loop(outline_of(far_field));
     double triangles = 0;
     for (const LineBorder& border : skeleton.trace())
-        triangles += estimate_undivided(localize(border, skeleton.lines, size), size);
+        triangles += estimate_undivided(localize(border, skeleton.lines, region.size), region.size);
     return triangles;
 }
 
-Decoupling decouple(std::span<const Point> points, std::span<const std::vector<VertexId>> borders,
-                    const SizeField& size, const FarField& far_field, const DecouplingOptions& options,
-                    const RefineOptions& refine, const InnerLines& inner) {
-    validate(options);
+Decoupling decouple(const OuterRegion& region, const RefineOptions& refine) {
+    validate(region.options);
     validate(refine);
-    CutRegion cut = cut_region({points, borders, size, far_field, options, inner});
+    CutRegion cut = cut_region(region);
     Decoupling result;
     result.subdomains.resize(cut.borders.size());
     core::parallel_for(cut.borders.size(), 1, [&](std::size_t i, std::size_t) {
-        result.subdomains[i] = make_subdomain(cut.border(i), cut.borders[i].estimate.get(), cut.lines, size, refine);
+        result.subdomains[i] =
+            make_subdomain(cut.border(i), cut.borders[i].estimate.get(), cut.lines, region.size, refine);
     });
     result.separator_vertices = cut.separator_vertices;
     result.points.resize(cut.lines.vertices());

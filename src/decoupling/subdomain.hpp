@@ -36,30 +36,35 @@ struct InnerLines {
     std::vector<Segment> lines;  ///< between vertices
 };
 
+/// The outer region with what decides how it is cut. `borders` are closed loops of indices into `points`, counter-clockwise
+/// round each body and its layer. If the far field has walls, the last one is the border of the domain, clockwise.
+struct OuterRegion {
+    std::span<const Point> points;
+    std::span<const std::vector<VertexId>> borders;
+    const SizeField& size;
+    const FarField& far_field;
+    DecouplingOptions options{};
+    InnerLines inner{};  ///< lines inside it that become edges of the mesh
+};
+
 /// The outer region, cut into subdomains.
 struct Decoupling {
     std::vector<Point> points;           ///< the points handed in, then the vertices of separators and far field
-    std::vector<Segment> far_field;      ///< edges of the far field; the region lies on their left
+    std::vector<Segment> far_field;      ///< edges of the far field, unless it has walls; the region lies on their left
     std::vector<Subdomain> subdomains;   ///< in an order that does not depend on the number of threads
     std::size_t separator_vertices = 0;  ///< number of vertices of separators and far field
     std::vector<std::vector<Segment>> inner_edges{};  ///< per line inside the region: its edges, in its direction
 };
 
-/// Cuts the outer region, between the borders of the layers and the far field, into subdomains of about equal work.
-/// `borders` are closed loops of indices into `points`, counter-clockwise round each body and its layer. If the far
-/// field has walls, the last one is the border of the domain, clockwise, and Decoupling::far_field is empty. The
-/// subdomains depend on the arguments alone, never on the number of threads. Throws OptionError for options out of
-/// range, and where the far field does not enclose the borders and the inner lines with some room.
-LAMINA_EXPORT Decoupling decouple(std::span<const Point> points, std::span<const std::vector<VertexId>> borders,
-                                  const SizeField& size, const FarField& far_field,
-                                  const DecouplingOptions& options = {}, const RefineOptions& refine = {},
-                                  const InnerLines& inner = {});
+/// Cuts the outer region, between the borders of the layers and the far field, into subdomains of about equal work. They
+/// depend on the arguments alone, never on the number of threads. Throws OptionError for options out of range, and where
+/// the far field does not enclose the borders and the inner lines with some room.
+LAMINA_EXPORT Decoupling decouple(const OuterRegion& region, const RefineOptions& refine = {});
 
 /// Returns the number of triangles that the refinement of the outer region will make, by estimate, before it is cut
-/// into subdomains. Takes the arguments of decouple() and a few milliseconds. Throws OptionError where the far field
-/// does not enclose the borders with some room.
-LAMINA_EXPORT double estimate_triangles(std::span<const Point> points, std::span<const std::vector<VertexId>> borders,
-                                        const SizeField& size, const FarField& far_field);
+/// into subdomains; lines inside it are left out. Takes a few milliseconds. Throws OptionError where the far field does not
+/// enclose the borders with some room.
+LAMINA_EXPORT double estimate_triangles(const OuterRegion& region);
 
 /// Refines one subdomain. Throws as refine(points, segments, size, options) does.
 LAMINA_EXPORT Refinement refine(const Subdomain& subdomain);

@@ -107,7 +107,7 @@ Mesh layer_mesh(const layers::Layer& layer, const layers::LayerCells& cells) {
     return mesh;
 }
 
-Mesh assemble(const Geometry& geometry, const layers::Layer& layer, layers::LayerCells cells,
+Mesh assemble(const Geometry& geometry, const layers::Layer& layer, const layers::LayerCells& cells,
               decoupling::Decoupling decoupling, std::vector<Refinement> refinements, const AssembleOptions& options) {
     Mesh mesh;
     MeshTaker taker(decoupling, mesh);

@@ -45,7 +45,7 @@ Mesh layer_mesh(const layers::Layer& layer, const layers::LayerCells& cells);
 /// of the decoupling (walls, layer, separators); Steiner points follow, subdomain by subdomain. The triangles of the
 /// layer come first, then those of the subdomains, then the quadrilaterals of the layer. Pieces are numbered in the
 /// same order. Throws MeshError from 2^32 vertices on.
-LAMINA_EXPORT Mesh assemble(const Geometry& geometry, const layers::Layer& layer, layers::LayerCells cells,
+LAMINA_EXPORT Mesh assemble(const Geometry& geometry, const layers::Layer& layer, const layers::LayerCells& cells,
                             decoupling::Decoupling decoupling, std::vector<Refinement> refinements,
                             const AssembleOptions& options = {});
 

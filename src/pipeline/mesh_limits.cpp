@@ -1,5 +1,4 @@
 #include "pipeline/mesh_limits.hpp"
-#include "decoupling/subdomain.hpp"
 
 #include <algorithm>
 #include <string>
@@ -25,14 +24,14 @@ double layer_triangles(const layers::Layer& layer) {
     return 2 * static_cast<double>(cells);
 }
 
-RunEstimate estimate_mesh(const RefineOptions& refine, const layers::Layer& layer, const RegionBorders& region,
-                          const SizeField& size, const decoupling::FarField& far_field, const WorkCost& cost) {
+RunEstimate estimate_mesh(const RefineOptions& refine, const layers::Layer& layer,
+                          const decoupling::OuterRegion& region, const WorkCost& cost) {
     // Measured: how much more time a triangle of the layer takes than another one, and how much regularization takes.
     constexpr double more_seconds_per_layer_triangle = 0.3e-6, seconds_per_regularized_triangle = 12e-6;
     const double in_layer = layer_triangles(layer);
     double border_edges = 0;
     for (const auto& border : region.borders) border_edges += static_cast<double>(border.size());
-    const double isotropic = estimate_triangles(region.points, region.borders, size, far_field);
+    const double isotropic = estimate_triangles(region);
     RunEstimate estimate =
         estimate_run(in_layer + isotropic, cost, thread_count(),
                      seconds_per_border_edge * border_edges + more_seconds_per_layer_triangle * in_layer +
@@ -140,9 +139,8 @@ void require_walls_within(const SurfaceOptions& options, const Geometry& prepare
 }
 
 RunEstimate estimate_within_limits(const RefineOptions& refine, double gradation, const layers::Layer& layer,
-                                   const RegionBorders& region, const SizeField& size,
-                                   const decoupling::FarField& far_field, const WorkBudget& budget) {
-    const RunEstimate estimate = estimate_mesh(refine, layer, region, size, far_field, budget.cost);
+                                   const decoupling::OuterRegion& region, const WorkBudget& budget) {
+    const RunEstimate estimate = estimate_mesh(refine, layer, region, budget.cost);
     if (const double in_layer = layer_triangles(layer); in_layer > 0.5 * estimate.triangles)
         require_within(budget.limits, estimate, "layers",
                        fmt::format("the mesh, with {:.2g} triangles in the layer,", in_layer));

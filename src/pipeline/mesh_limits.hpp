@@ -4,7 +4,7 @@
 #include <lamina/mesh_sink.hpp>
 #include <lamina/pipeline.hpp>
 
-#include "decoupling/far_field.hpp"
+#include "decoupling/subdomain.hpp"
 #include "layers/layer.hpp"
 #include "pipeline/outer_walls.hpp"
 
@@ -36,11 +36,9 @@ void require_layers_within(const layers::LayerGrowth& growth, const Geometry& wa
 /// the gap. Takes less than a second.
 void require_walls_within(const SurfaceOptions& options, const Geometry& prepared, const WorkBudget& budget);
 
-/// Estimates the run from the layer, and the borders of the region and the size field beyond it. Throws LimitError
-/// where it would exceed the limits. `gradation` is that of the sizes.
+/// Estimates the run from the layer and the region beyond it. Throws LimitError where it would exceed the limits. `gradation` is that of the sizes.
 RunEstimate estimate_within_limits(const RefineOptions& refine, double gradation, const layers::Layer& layer,
-                                   const RegionBorders& region, const SizeField& size,
-                                   const decoupling::FarField& far_field, const WorkBudget& budget);
+                                   const decoupling::OuterRegion& region, const WorkBudget& budget);
 
 /// Returns how many triangles the estimate has beyond the layer.
 double triangles_beyond_layer(const RunEstimate& estimate, const layers::Layer& layer);

@@ -139,22 +139,36 @@ std::vector<double> first_heights_at_vertices(const FittedLayer& fitted, const l
     return heights;
 }
 
-/// Divides the far field into inlet and outlet, if the options ask for it, and adds the markers of outer walls and of a
-/// line of symmetry that cuts bodies, or those of a row of blades.
-void complete_markers(const FittedLayer& fitted, const layers::Layer& layer, const RegionBorders& region,
-                      const CaseOptions& options, MeshDriver& driver, std::span<const Point> points,
-                      std::vector<Marker>& markers) {
+SizeField sizes_beyond(const FittedLayer& fitted, const layers::Layer& layer, const SizingOptions& options) {
+    return sizing::make_size_field(repeated_in_row(border_loops(layer), fitted.far_field), fitted.requests.sources,
+                                   options, fitted.conditions.chord, fitted.far_field.box());
+}
+
+/// Adds the markers of outer walls and of a line of symmetry that cuts bodies, or those of a row of blades.
+void add_borders_of_domain(const FittedLayer& fitted, const layers::Layer& layer, const RegionBorders& region,
+                           const FarFieldOptions& options, std::vector<Marker>& markers) {
     if (!region.row.empty()) return add_row(region.row, markers);
     const std::vector<Segment>& symmetry = region.symmetry;
     add_outer_walls(fitted.outer_walls, std::span(layer.edges.walls).last(layer.outer_walls), markers);
     if (!symmetry.empty()) {
-        const OuterWallFacts line{symmetry_name(options.far_field), fitted.far_field.floor, OuterWallKind::slip, 0,
-                                  "symmetry"};
+        const OuterWallFacts line{symmetry_name(options), fitted.far_field.floor, OuterWallKind::slip, 0, "symmetry"};
         add_outer_walls({&line, 1}, {&symmetry, 1}, markers);
     }
-    if (!options.inlet_outlet && !options.far_field.tunnel) return;
-    driver.place_far_field();
-    split_far_field(points, markers, fitted.conditions.alpha_deg);
+}
+
+/// Returns all markers of the mesh. The far field is divided into inlet and outlet if the options ask for it.
+std::vector<Marker> markers_of_mesh(const FittedLayer& fitted, const layers::Layer& layer, const RegionBorders& region,
+                                    const CaseOptions& options, const DecoupledBorders& borders, MeshDriver& driver) {
+    std::vector<Segment> far_field = region.far_field;
+    far_field.insert(far_field.end(), borders.far_field.begin(), borders.far_field.end());
+    std::vector<Marker> markers = make_markers(fitted.geometry, layer, std::move(far_field), options.assemble);
+    add_borders_of_domain(fitted, layer, region, options.far_field, markers);
+    if (region.row.empty() && (options.inlet_outlet || options.far_field.tunnel)) {
+        driver.place_far_field();
+        split_far_field(borders.points, markers, fitted.conditions.alpha_deg);
+    }
+    add_line_markers(fitted.lines, options.lines, borders.inner_edges, markers);
+    return markers;
 }
 
 /// Doubles the vertices of two-sided lines, closes sheets, and checks the mesh as a whole: pieces know no lines, and sheets
@@ -171,6 +185,30 @@ void complete_walls_without_thickness(const CaseOptions& options, MadeMesh& made
     require_valid(result.check);
 }
 
+/// Returns what the check of the pieces has to know of the layer.
+MeshCheckOptions options_of_check(const FittedLayer& fitted, const layers::Layer& layer, const CaseOptions& options,
+                                  const MeshResult& result, std::span<const Marker> markers) {
+    return {.min_angle_deg = options.refine.min_angle_deg,
+            .first_heights = first_heights_of_markers(result, markers),
+            .first_height_at = first_heights_at_vertices(fitted, layer)};
+}
+
+/// Ends the check of the pieces. Throws where the mesh is not valid.
+void finish_check(mesh::PiecewiseCheck& check, const MadePieces& pieces, std::span<const Marker> markers,
+                  MadeMesh& made) {
+    made.result.check = check.finish(markers, made.constraints, pieces.first_triangle);
+    require_valid(made.result.check);
+    made.narrow = check.unexcused();
+}
+
+/// Gives what is left of the pieces, beside the mesh, to who asked for it.
+void hand_over(MadePieces& pieces, MadeMesh& made) {
+    made.counts = pieces.counts;
+    made.hash = std::move(pieces.hash);
+    made.sink = std::move(pieces.sink);
+    made.parts = std::move(pieces.parts);
+}
+
 }  // namespace
 
 MadeMesh make_mesh(const FittedLayer& fitted, const CaseOptions& options, MeshDriver& driver, StageClock& clock) {
@@ -185,36 +223,28 @@ MadeMesh make_mesh(const FittedLayer& fitted, const CaseOptions& options, MeshDr
     clock.end(&StageSeconds::layers);
 
     clock.begin("sizing");
-    const SizeField size =
-        sizing::make_size_field(repeated_in_row(border_loops(layer), fitted.far_field), fitted.requests.sources,
-                                options.sizing, fitted.conditions.chord, fitted.far_field.box());
+    const SizeField size = sizes_beyond(fitted, layer, options.sizing);
     const RegionBorders region = fitted.far_field.pitch > 0 ? close_row(layer, fitted.below, fitted.far_field, size)
                                                             : close_domain(layer, fitted.far_field, size);
+    const decoupling::OuterRegion outer{
+        region.points,    region.borders,     size,
+        fitted.far_field, options.decoupling, inner_lines(fitted.lines, options.lines, region)};
     std::optional<RunEstimate> estimate;
     driver.lead([&] {
-        estimate = estimate_within_limits(options.refine, options.sizing.gradation, layer, region, size,
-                                          fitted.far_field, budget);
+        estimate = estimate_within_limits(options.refine, options.sizing.gradation, layer, outer, budget);
         result.estimate = *estimate;
     });
     clock.end(&StageSeconds::sizing);
 
     clock.begin("decoupling", estimate);
-    const DecoupledBorders borders = driver.decouple(
-        {region.points, region.borders, size, fitted.far_field, options.decoupling,
-         inner_lines(fitted.lines, options.lines, region)},
-        refine_within(options.refine, fitted.conditions.chord, budget), triangles_beyond_layer(result.estimate, layer));
-    std::vector<Segment> far_field = region.far_field;
-    far_field.insert(far_field.end(), borders.far_field.begin(), borders.far_field.end());
-    std::vector<Marker> markers = make_markers(fitted.geometry, layer, std::move(far_field), options.assemble);
-    complete_markers(fitted, layer, region, options, driver, borders.points, markers);
-    add_line_markers(fitted.lines, options.lines, borders.inner_edges, markers);
+    const DecoupledBorders borders =
+        driver.decouple(outer, refine_within(options.refine, fitted.conditions.chord, budget),
+                        triangles_beyond_layer(result.estimate, layer));
+    std::vector<Marker> markers = markers_of_mesh(fitted, layer, region, options, borders, driver);
     clock.end(&StageSeconds::decoupling);
 
     clock.begin("layer triangulation, refinement and check of pieces");
-    mesh::PiecewiseCheck check(borders.points,
-                               {.min_angle_deg = options.refine.min_angle_deg,
-                                .first_heights = first_heights_of_markers(result, markers),
-                                .first_height_at = first_heights_at_vertices(fitted, layer)},
+    mesh::PiecewiseCheck check(borders.points, options_of_check(fitted, layer, options, result, markers),
                                driver.matched_elsewhere(region.points.size()));
     core::BusyTimes times;
     MadePieces pieces =
@@ -223,11 +253,7 @@ MadeMesh make_mesh(const FittedLayer& fitted, const CaseOptions& options, MeshDr
     result.thread_seconds = clock.end_shared(times);
 
     clock.begin("check");
-    driver.lead([&] {
-        result.check = check.finish(markers, made.constraints, pieces.first_triangle);
-        require_valid(result.check);
-        made.narrow = check.unexcused();
-    });
+    driver.lead([&] { finish_check(check, pieces, markers, made); });
     driver.tell_narrow(made.narrow);
     clock.end(&StageSeconds::check);
 
@@ -238,17 +264,11 @@ MadeMesh make_mesh(const FittedLayer& fitted, const CaseOptions& options, MeshDr
     summarize_cells(layer, pieces.cells, result);
     if (!options.lines.empty() || has_sheets(result.geometry)) complete_walls_without_thickness(options, made);
     summarize_refinement(pieces.summary, result);
-    driver.lead([&] {
-        result.warnings = find_warnings(
-            result, options,
-            {check.widest().middle, check.narrowest().middle, pieces.summary.oversized.middle, made.narrow},
-            pieces.layer);
-    });
+    const WorstPlaces places{check.widest().middle, check.narrowest().middle, pieces.summary.oversized.middle,
+                             made.narrow};
+    driver.lead([&] { result.warnings = find_warnings(result, options, places, pieces.layer); });
     driver.keep_parts(pieces);
-    made.counts = pieces.counts;
-    made.hash = std::move(pieces.hash);
-    made.sink = std::move(pieces.sink);
-    made.parts = std::move(pieces.parts);
+    hand_over(pieces, made);
     clock.end(&StageSeconds::assembly);
     return made;
 }

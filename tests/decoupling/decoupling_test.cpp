@@ -71,7 +71,7 @@ struct Bodies {
 
 /// Decouples the region between the bodies and a box round a unit chord.
 Decoupling decouple_to(const Bodies& bodies, const SizeField& size, double far_field, double pieces_target) {
-    return decouple(bodies.points, bodies.borders, size, {FarFieldShape::box, {0.5, 0}, far_field}, {pieces_target});
+    return decouple({bodies.points, bodies.borders, size, {FarFieldShape::box, {0.5, 0}, far_field}, {pieces_target}});
 }
 
 /// Refines every subdomain and checks the union from scratch: it must be valid, of the right area and globally

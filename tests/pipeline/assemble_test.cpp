@@ -43,7 +43,7 @@ Stages run_stages(const std::string& input, const CaseOptions& options) {
     const FarField far_field = place_far_field(bounding_box(stages.geometry), 1, options.far_field);
     stages.layer = make_layer(stages.geometry, options.layer, growth, border_options(options, 1, {}));
     const SizeField size = sizing::make_size_field(border_loops(stages.layer), {}, options.sizing, 1, far_field.box());
-    stages.decoupling = decouple(stages.layer.points, stages.layer.borders, size, far_field, options.decoupling);
+    stages.decoupling = decouple({stages.layer.points, stages.layer.borders, size, far_field, options.decoupling});
     stages.cells = fill_layer(stages.layer, options.layer.topology);
     stages.refinements = refine(stages.decoupling.subdomains);
     return stages;

@@ -45,8 +45,7 @@ Mesh PiecesWork::check_layer(const layers::LayerCells& cells) const {
 DecoupledBorders LocalDriver::decouple(const decoupling::OuterRegion& region, const RefineOptions& refine,
                                        double expected_triangles) {
     rules_ = piece_rules(refine, expected_triangles);
-    decoupling_ = decoupling::decouple(region.points, region.borders, region.size, region.far_field, region.options,
-                                       refine, region.inner);
+    decoupling_ = decoupling::decouple(region, refine);
     return {decoupling_.points, decoupling_.far_field, decoupling_.inner_edges};
 }
 
