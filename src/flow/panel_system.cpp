@@ -175,6 +175,28 @@ Bodies make_bodies(std::span<const Contour> contours, const FlowWalls& walls) {
 /// Copies in a row farther away than this, in extents of the configuration, count as add_far_copy() says.
 constexpr double far_away = 4;
 
+/// Adds to the rows of a body's nodes what the sheets of all bodies and of their images induce there.
+void add_sheets(std::vector<double>& matrix, std::size_t size, const Body& at, std::span<const Body> bodies,
+                std::span<const Image> images) {
+    constexpr std::size_t grain = 16;
+    core::parallel_for(at.nodes.size(), grain, [&](std::size_t begin, std::size_t end) {
+        std::vector<LoggedNode> seen(size);
+        for (std::size_t i = begin; i < end; ++i) {
+            const std::span<double> row = std::span(matrix).subspan((at.column + i) * size, size);
+            for (const Image& image : images)
+                for (const Body& of : bodies) {
+                    if (image.in_row && std::abs(image.shift) > far_away)
+                        add_far_copy(row, of, at.nodes[i], image);
+                    else
+                        add_sheet(row, of, image.seen_from(at.nodes[i]), image.stream_function_factor(), seen);
+                }
+        }
+    });
+    for (const Image& image : images)
+        for (const Body& of : bodies)
+            if (of.blunt) add_base(matrix, size, at, of, image);
+}
+
 /// Returns the strengths in the free stream, those that each body in turn adds whose trailing edge has a unit of circulating
 /// flow round it, contrary to its Kutta condition, and those in a unit stream along y.
 std::vector<std::vector<double>> solve_strengths(std::span<const Body> bodies, std::span<const Image> images,
@@ -183,23 +205,7 @@ std::vector<std::vector<double>> solve_strengths(std::span<const Body> bodies, s
     std::vector<double> matrix(size * size), right_side(size), upright(size);
     std::vector<std::vector<double>> right_sides(1);
     for (const Body& at : bodies) {
-        constexpr std::size_t grain = 16;
-        core::parallel_for(at.nodes.size(), grain, [&](std::size_t begin, std::size_t end) {
-            std::vector<LoggedNode> seen(size);
-            for (std::size_t i = begin; i < end; ++i) {
-                const std::span<double> row = std::span(matrix).subspan((at.column + i) * size, size);
-                for (const Image& image : images)
-                    for (const Body& of : bodies) {
-                        if (image.in_row && std::abs(image.shift) > far_away)
-                            add_far_copy(row, of, at.nodes[i], image);
-                        else
-                            add_sheet(row, of, image.seen_from(at.nodes[i]), image.stream_function_factor(), seen);
-                    }
-            }
-        });
-        for (const Image& image : images)
-            for (const Body& of : bodies)
-                if (of.blunt) add_base(matrix, size, at, of, image);
+        add_sheets(matrix, size, at, bodies, images);
         const std::size_t constant = at.column + at.nodes.size();
         for (std::size_t i = 0; i < at.nodes.size(); ++i) {
             matrix[(at.column + i) * size + constant] = -1;

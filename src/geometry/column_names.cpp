@@ -198,7 +198,7 @@ std::vector<std::string> units_of_names(const std::vector<std::string>& names) {
     std::vector<std::string> units;
     for (const std::string& name : names) {
         if (role_of(plain_name(name)) == ColumnRole::unknown) continue;
-        std::string unit = name.find("%") != std::string::npos ? "%" : unit_of_name(name);
+        std::string unit = name.find('%') != std::string::npos ? "%" : unit_of_name(name);
         if (!unit.empty() && std::find(units.begin(), units.end(), unit) == units.end())
             units.push_back(std::move(unit));
     }

@@ -136,6 +136,12 @@ private:
                points.front().at.y == 0;
     }
 
+    /// Returns whether block i and the one behind it are the surfaces of one outline.
+    bool begins_two_surfaces(std::size_t i) const {
+        return i + 1 < section_.blocks.size() && !is_loop(section_.block(i)) &&
+               are_two_surfaces(section_.block(i), section_.block(i + 1));
+    }
+
     /// Adds the outline that begins with block i. Returns the number of blocks that it has.
     std::size_t add_blocks(std::size_t i) {
         const PointSpan points = section_.block(i);
@@ -144,12 +150,10 @@ private:
             add_mirrored(points, title);
         } else if (const auto second_surface = find_second_surface(points)) {
             add(join_surfaces(points.first(*second_surface), points.subspan(*second_surface)), title, "lednicer");
-        } else if (is_loop(points) || section_.blocks.size() == 1) {
-            add({points.begin(), points.end()}, title, "");
-        } else if (i + 1 < section_.blocks.size() && are_two_surfaces(points, section_.block(i + 1))) {
+        } else if (begins_two_surfaces(i)) {
             add(join_surfaces(points, section_.block(i + 1)), title, "lednicer");
             return 2;
-        } else if (keep_open_) {
+        } else if (is_loop(points) || section_.blocks.size() == 1 || keep_open_) {
             add({points.begin(), points.end()}, title, "");
         } else {
             throw InputError({file_, points.front().line, points.front().at},

@@ -250,24 +250,38 @@ void require_own_name(const Geometry& bodies, const Element& sheet) {
     }
 }
 
+/// Returns where a sheet stands on a wall, if it does, and lets its curve begin there. Throws InputError where it stands on
+/// walls at both ends.
+std::optional<Foot> foot_of(const Geometry& bodies, const Element& sheet, std::vector<Point>& curve) {
+    const std::optional<Foot> first = stand(bodies, sheet, curve);
+    std::reverse(curve.begin(), curve.end());
+    const std::optional<Foot> last = stand(bodies, sheet, curve);
+    if (first && last)
+        refuse_at(sheet, last->at,
+                  first->element == last->element
+                      ? "stands on the wall at both ends, and encloses a part of the flow: leave a gap"
+                      : "joins two elements: leave a gap");
+    if (last) return last;
+    std::reverse(curve.begin(), curve.end());
+    return first;
+}
+
+/// Throws InputError for a sheet that stands on another one of the same element.
+void require_wall_below(const Element& sheet, const Foot& foot, const Element& body) {
+    for (const SheetRange& range : sheet_ranges(body)) {
+        const std::size_t n = body.points.size(), edge = foot.edge < range.first ? foot.edge + n : foot.edge;
+        if (edge < range.last && (edge > range.first || !foot.at_vertex || is_sheet(body)))
+            refuse_at(sheet, foot.at, "stands on another sheet: give one sheet for both, or leave a gap");
+    }
+}
+
 }  // namespace
 
 Geometry with_sheets(Geometry bodies, std::span<const Element> sheets) {
     for (const Element& sheet : sheets) {
         require_own_name(bodies, sheet);
         std::vector<Point> curve = sheet.points;
-        std::optional<Foot> foot = stand(bodies, sheet, curve);
-        std::reverse(curve.begin(), curve.end());
-        if (const std::optional<Foot> other = stand(bodies, sheet, curve)) {
-            if (foot)
-                refuse_at(sheet, other->at,
-                          foot->element == other->element
-                              ? "stands on the wall at both ends, and encloses a part of the flow: leave a gap"
-                              : "joins two elements: leave a gap");
-            foot = other;
-        } else {
-            std::reverse(curve.begin(), curve.end());
-        }
+        const std::optional<Foot> foot = foot_of(bodies, sheet, curve);
         // An outline without a vertex between its tips would have none on its way back.
         if (curve.size() == 2) curve.insert(curve.begin() + 1, midpoint(curve[0], curve[1]));
         if (foot) require_outside(bodies, *foot, sheet, curve);
@@ -277,11 +291,7 @@ Geometry with_sheets(Geometry bodies, std::span<const Element> sheets) {
             continue;
         }
         Element& body = bodies.elements[foot->element];
-        for (const SheetRange& range : sheet_ranges(body)) {
-            const std::size_t n = body.points.size(), edge = foot->edge < range.first ? foot->edge + n : foot->edge;
-            if (edge < range.last && (edge > range.first || !foot->at_vertex || is_sheet(body)))
-                refuse_at(sheet, foot->at, "stands on another sheet: give one sheet for both, or leave a gap");
-        }
+        require_wall_below(sheet, *foot, body);
         put_on_wall(sheet, curve, *foot, body);
     }
     return bodies;

@@ -14,7 +14,7 @@ namespace lamina::geometry {
 
 namespace {
 
-/// The numbers of a text, and whether all its lines but the first hold two: such lines are points, not PLOT3D.
+/// The numbers of a text.
 struct Numbers {
     std::vector<double> values;
     std::vector<std::uint32_t> lines;  ///< of each number
@@ -91,7 +91,7 @@ std::optional<Layout> layout_of(const std::vector<double>& values, std::size_t s
 
 std::optional<Layout> find_layout(const std::vector<double>& values) {
     for (const std::size_t indices : {std::size_t{3}, std::size_t{2}}) {
-        if (const auto single = layout_of(values, 0, 1, indices)) return single;
+        if (auto single = layout_of(values, 0, 1, indices)) return single;
         const double blocks = values[0];
         if (blocks >= 1 && blocks == std::floor(blocks) && blocks < static_cast<double>(values.size()))
             if (auto several = layout_of(values, 1, static_cast<std::size_t>(blocks), indices)) return several;

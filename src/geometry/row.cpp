@@ -19,6 +19,36 @@ std::size_t Channel::narrowest() const {
     return narrowest;
 }
 
+namespace {
+
+std::size_t column_of(const Channel& channel, double x) {
+    const double column = std::floor((x - channel.left) / channel.width);
+    return static_cast<std::size_t>(std::clamp(column, 0.0, static_cast<double>(channel.low.size() - 1)));
+}
+
+/// Returns the ordinates of an edge where it enters and where it leaves the abscissas [begin, end]; a.x <= b.x.
+std::pair<double, double> ordinates_between(Point a, Point b, double begin, double end) {
+    if (a.x == b.x) return {a.y, b.y};
+    const auto y_at = [&](double x) {
+        if (x <= a.x) return a.y;
+        return x >= b.x ? b.y : a.y + (x - a.x) / (b.x - a.x) * (b.y - a.y);
+    };
+    return {y_at(begin), y_at(end)};
+}
+
+/// Narrows the columns of a channel below an edge, and above the same edge one pitch below.
+void narrow(Channel& channel, Point a, Point b, double pitch) {
+    if (a.x > b.x) std::swap(a, b);
+    for (std::size_t k = column_of(channel, a.x), last = column_of(channel, b.x); k <= last; ++k) {
+        const double begin = channel.left + static_cast<double>(k) * channel.width;
+        const auto [first, second] = ordinates_between(a, b, begin, begin + channel.width);
+        channel.low[k] = std::max(channel.low[k], std::max(first, second) - pitch);
+        channel.high[k] = std::min(channel.high[k], std::min(first, second));
+    }
+}
+
+}  // namespace
+
 Channel channel_below(std::span<const std::vector<Point>> outlines, double pitch, std::size_t columns) {
     Box box;
     for (const std::vector<Point>& outline : outlines)
@@ -26,26 +56,9 @@ Channel channel_below(std::span<const std::vector<Point>> outlines, double pitch
     Channel channel{box.lower.x, box.width() / static_cast<double>(columns), {}, {}};
     channel.low.assign(columns, -HUGE_VAL);
     channel.high.assign(columns, HUGE_VAL);
-    const auto column_of = [&](double x) {
-        const double column = std::floor((x - channel.left) / channel.width);
-        return static_cast<std::size_t>(std::clamp(column, 0.0, static_cast<double>(columns - 1)));
-    };
     for (const std::vector<Point>& outline : outlines)
-        for (std::size_t i = 0; i < outline.size(); ++i) {
-            Point a = outline[i], b = outline[(i + 1) % outline.size()];
-            if (a.x > b.x) std::swap(a, b);
-            const auto y_at = [&](double x) {
-                if (x <= a.x) return a.y;
-                return x >= b.x ? b.y : a.y + (x - a.x) / (b.x - a.x) * (b.y - a.y);
-            };
-            for (std::size_t k = column_of(a.x), last = column_of(b.x); k <= last; ++k) {
-                const double begin = channel.left + static_cast<double>(k) * channel.width;
-                const bool is_upright = a.x == b.x;
-                const double first = y_at(begin), second = is_upright ? b.y : y_at(begin + channel.width);
-                channel.low[k] = std::max(channel.low[k], std::max(is_upright ? a.y : first, second) - pitch);
-                channel.high[k] = std::min(channel.high[k], std::min(is_upright ? a.y : first, second));
-            }
-        }
+        for (std::size_t i = 0; i < outline.size(); ++i)
+            narrow(channel, outline[i], outline[(i + 1) % outline.size()], pitch);
     return channel;
 }
 

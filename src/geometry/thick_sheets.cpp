@@ -64,8 +64,8 @@ std::vector<Point> section_round(const std::vector<Point>& curve, double thickne
         shares.push_back(0.5 * (1 - core::cos_reproducible(angle)));
     }
     const std::vector<std::pair<Point, double>> places = divided_at(curve, std::move(shares));
-    std::vector<Point> points;
-    for (const auto& [p, share] : places) points.push_back(p);
+    std::vector<Point> points(places.size());
+    std::transform(places.begin(), places.end(), points.begin(), [](const auto& place) { return place.first; });
     std::vector<Point> below, above;
     for (std::size_t i = 0; i < points.size(); ++i) {
         const double s = places[i].second, half = 0.5 * thickness / most_of_shape * std::sqrt(s) * (1 - s);

@@ -226,9 +226,10 @@ std::vector<FormatRow> fluent_rows() {
 
 std::vector<FormatRow> ugrid_rows() {
     std::vector<FormatRow> rows;
-    const auto add = [&](const char* name, std::vector<std::string> extensions, const char* description, auto write) {
+    const auto add = [&](const char* name, const std::vector<std::string>& extensions, const char* description,
+                         auto write) {
         rows.push_back({.name = name,
-                        .extensions = std::move(extensions),
+                        .extensions = extensions,
                         .description = description,
                         .write = write,
                         .files = named_files<ugrid_files>,

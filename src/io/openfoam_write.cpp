@@ -287,48 +287,57 @@ private:
     void write_neighbours(std::ostream& out) const {
         write_list(out, internal_faces(), [&](LineText& line, std::size_t f) { line << neighbour(internal_face(f)); });
     }
+    /// One patch of the file boundary; `more` holds further lines of its dictionary.
+    struct Patch {
+        std::string name;
+        const char* type;
+        std::size_t faces;
+        std::string more;
+    };
+
     void write_patches(std::ostream& out) const {
+        std::vector<Patch> patches;
+        for (const Marker& marker : mesh_.markers)
+            if (&marker != axis_) patches.push_back(patch_of(marker));
+        add_patches_of_planes(patches);
+        out << patches.size() << "\n(\n";
         std::size_t start = internal_faces();
-        const auto write_patch = [&](const std::string& name, const char* type, std::size_t faces,
-                                     const std::string& more = {}) {
+        for (const Patch& patch : patches) {
             out << fmt::format(
                 "    {}\n    {{\n        type            {};\n        nFaces          {};\n        startFace       "
                 "{};\n{}"
                 "    }}\n",
-                name, type, faces, start, more);
-            start += faces;
-        };
-        out << mesh_.markers.size() + (axis_ == nullptr && extrusion_.is_plane_flow() ? 1
-                                       : axis_ == nullptr                             ? 2
-                                                                                      : 1)
-            << "\n(\n";
-        const auto twin_of = [&](const Marker& marker) {
-            const bool is_first = &marker == &mesh_.markers[pair_->first];
-            const Point t = Point{} + (is_first ? 1.0 : -1.0) * pair_->translation;  // without -0
-            return fmt::format(
-                "        neighbourPatch  {};\n        transform       translational;\n        separationVector ({} {} "
-                "0);\n        matchTolerance  0.0001;\n",
-                mesh_.markers[is_first ? pair_->second : pair_->first].name, t.x, t.y);
-        };
-        for (const Marker& marker : mesh_.markers) {
-            if (&marker == axis_) continue;
-            const bool is_cyclic = pair_ && marker.kind == MarkerKind::periodic;
-            write_patch(marker.name, is_cyclic ? "cyclic" : patch_type(marker.kind),
-                        extrusion_.cells * marker.edges.size(), is_cyclic ? twin_of(marker) : std::string());
-        }
-        if (axis_ != nullptr) {
-            for (const char* plane : {first_plane, last_plane}) write_patch(plane, "wedge", cells());
-        } else if (extrusion_.is_plane_flow()) {
-            write_patch(front_and_back, "empty", 2 * cells());
-        } else {
-            const auto other = [&](const char* plane) {
-                return extrusion_.periodic ? fmt::format("        neighbourPatch  {};\n", plane) : std::string();
-            };
-            const char* const type = extrusion_.periodic ? "cyclic" : "symmetryPlane";
-            write_patch(first_plane, type, cells(), other(last_plane));
-            write_patch(last_plane, type, cells(), other(first_plane));
+                patch.name, patch.type, patch.faces, start, patch.more);
+            start += patch.faces;
         }
         out << ")\n";
+    }
+
+    Patch patch_of(const Marker& marker) const {
+        const std::size_t faces = extrusion_.cells * marker.edges.size();
+        if (!pair_ || marker.kind != MarkerKind::periodic) return {marker.name, patch_type(marker.kind), faces, {}};
+        const bool is_first = &marker == &mesh_.markers[pair_->first];
+        const Point t = Point{} + (is_first ? 1.0 : -1.0) * pair_->translation;  // without -0
+        return {marker.name, "cyclic", faces,
+                fmt::format(
+                    "        neighbourPatch  {};\n        transform       translational;\n        separationVector ({} "
+                    "{} 0);\n        matchTolerance  0.0001;\n",
+                    mesh_.markers[is_first ? pair_->second : pair_->first].name, t.x, t.y)};
+    }
+
+    /// Adds the patches of the planes between which the mesh lies.
+    void add_patches_of_planes(std::vector<Patch>& patches) const {
+        if (axis_ == nullptr && extrusion_.is_plane_flow()) {
+            patches.push_back({front_and_back, "empty", 2 * cells(), {}});
+            return;
+        }
+        const bool is_cyclic = axis_ == nullptr && extrusion_.periodic;
+        const char* const type = axis_ != nullptr ? "wedge" : is_cyclic ? "cyclic" : "symmetryPlane";
+        const auto twin = [&](const char* plane) {
+            return is_cyclic ? fmt::format("        neighbourPatch  {};\n", plane) : std::string();
+        };
+        patches.push_back({first_plane, type, cells(), twin(last_plane)});
+        patches.push_back({last_plane, type, cells(), twin(first_plane)});
     }
 
     /// Writes the faces on lines as zones. A face is flipped where its owner is not on the left of the line.

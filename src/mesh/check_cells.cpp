@@ -110,8 +110,9 @@ void check_edge(const MeshView& mesh, const CellEdges& edges, EdgePair pair, Are
     summary.delaunay.violations += violates_delaunay(mesh, pair.edge, pair.twin);
 }
 
-/// What a thread needs to check one block after the other.
-struct BlockMemory {
+/// A block of cells, with memory that a thread uses for one block after the other.
+struct CellBlock {
+    std::size_t begin = 0, end = 0;   ///< its cells
     std::vector<std::uint32_t> twin;  ///< per edge of the block, both counted from the first one
     std::vector<std::uint32_t> firsts;
     std::vector<double> areas;  ///< per cell of the block
@@ -119,7 +120,7 @@ struct BlockMemory {
 
 /// Sets `firsts` to the edges that have a twin with a higher number, so that each pair is there once. Selects them without
 /// a branch, which the processor would mispredict half of the time.
-void select_first_of_pairs(BlockMemory& block) {
+void select_first_of_pairs(CellBlock& block) {
     block.firsts.resize(block.twin.size() + 1);
     std::size_t n = 0;
     for (std::size_t e = 0; e < block.twin.size(); ++e) {
@@ -129,10 +130,11 @@ void select_first_of_pairs(BlockMemory& block) {
     block.firsts.resize(n);
 }
 
-/// Checks the cells [begin, end) and the edges between them.
-void check_block(const MeshView& mesh, std::size_t begin, std::size_t end, double min_angle_deg, BlockMemory& block,
-                 CellsSummary& summary, VertexMarks& frozen) {
+/// Checks the cells of a block and the edges between them.
+void check_block(const MeshView& mesh, CellBlock& block, double min_angle_deg, CellsSummary& summary,
+                 VertexMarks& frozen) {
     const CellEdges edges(mesh);
+    const std::size_t begin = block.begin, end = block.end;
     block.areas.resize(end - begin);
     const std::size_t triangles_end = std::clamp(mesh.triangles.size(), begin, end);
     check_triangles(mesh, begin, triangles_end, min_angle_deg, block.areas, summary);
@@ -185,11 +187,11 @@ CheckedCells check_cells(const MeshView& mesh, double min_angle_deg, std::option
     core::InOrder<CellsSummary> in_order([&](CellsSummary part) { checked.summary.append(std::move(part)); });
     core::parallel_for(edges.cells(), cells_per_part, [&](std::size_t begin, std::size_t end) {
         CellsSummary summary(min_angle_deg);
-        BlockMemory block;
-        for (std::size_t first = begin; first < end; first += cells_per_block) {
-            const std::size_t last = std::min(end, first + cells_per_block);
-            survey.match_block(first, last, block.twin);
-            check_block(mesh, first, last, min_angle_deg, block, summary, checked.frozen);
+        CellBlock block;
+        for (block.begin = begin; block.begin < end; block.begin = block.end) {
+            block.end = std::min(end, block.begin + cells_per_block);
+            survey.match_block(block.begin, block.end, block.twin);
+            check_block(mesh, block, min_angle_deg, summary, checked.frozen);
         }
         in_order.put(begin / cells_per_part, std::move(summary));
     });

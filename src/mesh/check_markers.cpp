@@ -58,45 +58,75 @@ std::vector<SlitEdge> slit_edges(std::span<const Point> points, std::span<const 
     return slits;
 }
 
-void check_markers(std::span<const Point> points, std::span<const Marker> markers, const std::vector<Segment>& boundary,
-                   DefectList& defects) {
-    std::vector<std::uint8_t> marked(boundary.size(), 0);
-    const auto report = [&](const Segment& edge, const std::string& description) {
-        defects.add([&] { return MeshDefect{description, points[edge.a.index()]}; });
-    };
-    for (const Marker& marker : markers) {
-        const auto is_earlier_namesake = [&](const Marker& other) {
-            return &other < &marker && other.name == marker.name;
-        };
-        if (std::any_of(markers.begin(), markers.end(), is_earlier_namesake))
-            defects.add([&] { return MeshDefect{fmt::format("two markers are named '{}'", marker.name), {}}; });
-        if (marker.kind == MarkerKind::internal) {
-            const std::vector<Segment> edges = sorted_undirected(marker.edges);
-            for (std::size_t i = 0; i < edges.size(); ++i) {
-                const Segment edge = edges[i];
-                if (i > 0 && edge == edges[i - 1])
-                    report(edge, fmt::format("marker '{}' holds the edge {} twice", marker.name, edge_text(edge)));
-                for (const Segment& side : {edge, Segment{edge.b, edge.a}})
-                    if (std::binary_search(boundary.begin(), boundary.end(), side))
-                        report(side, fmt::format("edge {} of the internal marker '{}' is on the boundary",
-                                                 edge_text(side), marker.name));
-            }
-            continue;
+namespace {
+
+/// Looks at one marker after the other, and reports what is wrong with it.
+class MarkerCheck {
+public:
+    MarkerCheck(std::span<const Point> points, const std::vector<Segment>& boundary, DefectList& defects)
+        : points_(points), boundary_(boundary), defects_(defects), marked_(boundary.size(), 0) {}
+
+    void check_name(const Marker& marker, std::span<const Marker> earlier) {
+        const auto is_namesake = [&](const Marker& other) { return other.name == marker.name; };
+        if (std::any_of(earlier.begin(), earlier.end(), is_namesake))
+            defects_.add([&] { return MeshDefect{fmt::format("two markers are named '{}'", marker.name), {}}; });
+    }
+    void check_internal(const Marker& marker) {
+        const std::vector<Segment> edges = sorted_undirected(marker.edges);
+        for (std::size_t i = 0; i < edges.size(); ++i) {
+            const Segment edge = edges[i];
+            if (i > 0 && edge == edges[i - 1])
+                report(edge, fmt::format("marker '{}' holds the edge {} twice", marker.name, edge_text(edge)));
+            for (const Segment& side : {edge, reversed(edge)})
+                if (std::binary_search(boundary_.begin(), boundary_.end(), side))
+                    report(side, fmt::format("edge {} of the internal marker '{}' is on the boundary", edge_text(side),
+                                             marker.name));
         }
+    }
+    void check_on_boundary(const Marker& marker) {
         for (const Segment& edge : marker.edges) {
-            const auto found = std::lower_bound(boundary.begin(), boundary.end(), edge);
-            if (found == boundary.end() || *found != edge) {
-                const bool reversed = std::binary_search(boundary.begin(), boundary.end(), Segment{edge.b, edge.a});
+            const auto found = std::lower_bound(boundary_.begin(), boundary_.end(), edge);
+            if (found == boundary_.end() || *found != edge) {
+                const bool other_way = std::binary_search(boundary_.begin(), boundary_.end(), reversed(edge));
                 report(edge, fmt::format("edge {} of marker '{}' {}", edge_text(edge), marker.name,
-                                         reversed ? "has the mesh on its right" : "is not on the boundary"));
-            } else if (std::exchange(marked[static_cast<std::size_t>(found - boundary.begin())], 1)) {
+                                         other_way ? "has the mesh on its right" : "is not on the boundary"));
+            } else if (std::exchange(marked_[static_cast<std::size_t>(found - boundary_.begin())], 1)) {
                 report(edge,
                        fmt::format("boundary edge {} is marked twice, once as '{}'", edge_text(edge), marker.name));
             }
         }
     }
-    for (std::size_t i = 0; i < boundary.size(); ++i)
-        if (!marked[i]) report(boundary[i], fmt::format("boundary edge {} is in no marker", edge_text(boundary[i])));
+    void check_all_marked() {
+        for (std::size_t i = 0; i < boundary_.size(); ++i)
+            if (!marked_[i])
+                report(boundary_[i], fmt::format("boundary edge {} is in no marker", edge_text(boundary_[i])));
+    }
+
+private:
+    std::span<const Point> points_;
+    const std::vector<Segment>& boundary_;
+    DefectList& defects_;
+    std::vector<std::uint8_t> marked_;  ///< of boundary_
+
+    static Segment reversed(const Segment& edge) { return {edge.b, edge.a}; }
+    void report(const Segment& edge, const std::string& description) {
+        defects_.add([&] { return MeshDefect{description, points_[edge.a.index()]}; });
+    }
+};
+
+}  // namespace
+
+void check_markers(std::span<const Point> points, std::span<const Marker> markers, const std::vector<Segment>& boundary,
+                   DefectList& defects) {
+    MarkerCheck checker(points, boundary, defects);
+    for (std::size_t i = 0; i < markers.size(); ++i) {
+        checker.check_name(markers[i], markers.first(i));
+        if (markers[i].kind == MarkerKind::internal)
+            checker.check_internal(markers[i]);
+        else
+            checker.check_on_boundary(markers[i]);
+    }
+    checker.check_all_marked();
     const PeriodicSearch periodic = find_periodic_pair(points, markers);
     if (const auto& mismatch = periodic.mismatch)
         defects.add([&] { return MeshDefect{mismatch->reason, mismatch->at}; });

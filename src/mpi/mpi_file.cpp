@@ -43,9 +43,8 @@ MpiFile::MpiFile(MPI_Comm all, const std::filesystem::path& file) : all_(all) {
     }
 }
 
-MpiFile::~MpiFile() {
-    // A process that fails leaves the file open, since closing it is collective: the end of MPI sees to it.
-}
+// A process that fails leaves the file open, since closing it is collective: the end of MPI sees to it.
+MpiFile::~MpiFile() = default;
 
 void MpiFile::note(int code) {
     if (code == MPI_SUCCESS || !failure_.empty()) return;

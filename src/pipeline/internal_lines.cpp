@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <utility>
@@ -36,6 +37,19 @@ constexpr const char* two_sided_word = "two-sided";
 
 [[noreturn]] void refuse(const InternalLine& line, const std::string& reason) {
     throw OptionError(option_name, fmt::format("{}: {}", line.name, reason));
+}
+
+/// Throws OptionError for points that make no line.
+void validate_points(const InternalLine& line) {
+    if (line.points.size() < 2) refuse(line, "has less than two points");
+    for (std::size_t i = 0; i < line.points.size(); ++i) {
+        if (!in_exact_range(line.points[i])) refuse(line, "has coordinates outside the exact range");
+        if (i > 0 && line.points[i] == line.points[i - 1]) refuse(line, "repeats a point");
+        if (i > 1 && core::segments_fold(line.points[i - 1], line.points[i - 2], line.points[i]))
+            refuse(line, "runs back on itself");
+    }
+    if (line.two_sided && line.points.front() == line.points.back())
+        refuse(line, "a line with two sides must not enclose a region of its own");
 }
 
 }  // namespace
@@ -74,15 +88,7 @@ void validate_lines(const CaseOptions& options) {
                 line,
                 "is no name that every format takes: it begins with a letter, and letters, digits, _, - and . follow");
         if (!names.insert(line.name).second) refuse(line, "two lines have this name");
-        if (line.points.size() < 2) refuse(line, "has less than two points");
-        for (std::size_t i = 0; i < line.points.size(); ++i) {
-            if (!in_exact_range(line.points[i])) refuse(line, "has coordinates outside the exact range");
-            if (i > 0 && line.points[i] == line.points[i - 1]) refuse(line, "repeats a point");
-            if (i > 1 && core::segments_fold(line.points[i - 1], line.points[i - 2], line.points[i]))
-                refuse(line, "runs back on itself");
-        }
-        if (line.two_sided && line.points.front() == line.points.back())
-            refuse(line, "a line with two sides must not enclose a region of its own");
+        validate_points(line);
         if (line.size && !(*line.size > 0)) refuse(line, "the size must be > 0");
     }
 }
@@ -260,34 +266,69 @@ void require_clear_of_sheets(const LineGraph& graph, std::span<const InternalLin
                        fmt::format("it meets a sheet near ({:.4g}, {:.4g}): leave a gap", p.x, p.y));
 }
 
-}  // namespace
-
-LineGraph arrange_lines(std::span<const InternalLine> lines, const decoupling::FarField& far_field,
-                        Geometry& geometry) {
-    LineGraph graph;
-    if (lines.empty()) return graph;
+/// Throws OptionError where lines have no place in the domain.
+void require_place_for_lines(std::span<const InternalLine> lines, const Box& domain, const Geometry& geometry) {
     if (geometry::is_cut(geometry))
         throw OptionError(option_name, "lines cannot be given beside bodies that a line of symmetry cuts");
     if (geometry.pitch) throw OptionError(option_name, "lines cannot be given in a row of blades (--periodic)");
-    const Box domain = far_field.box();
     for (const InternalLine& line : lines)
         for (const Point p : line.points)
             if (!(domain.lower.x < p.x && p.x < domain.upper.x && domain.lower.y < p.y && p.y < domain.upper.y))
                 refuse(line, fmt::format("the point ({}, {}) is not inside the far field", p.x, p.y));
-    const Arrangement arrangement = arrange(lines, geometry);
-    const ConstrainedTriangulation& cells = arrangement.cells;
+}
+
+/// Returns the pieces of lines outside bodies, as numbers of segments.
+std::vector<std::size_t> pieces_in_flow(const Arrangement& arrangement, const Geometry& geometry) {
     std::vector<std::size_t> pieces;
-    std::vector<char> used(arrangement.points.size());
+    const ConstrainedTriangulation& cells = arrangement.cells;
     for (std::size_t i = 0; i < cells.segments.size(); ++i) {
         const auto [a, b] = cells.segments[i];
         if (cells.parents[i] < arrangement.walls.size() ||
             is_inside_body(geometry, midpoint(arrangement.points[a.index()], arrangement.points[b.index()])))
             continue;
         pieces.push_back(i);
-        used[a.index()] = used[b.index()] = 1;
     }
+    return pieces;
+}
+
+/// Numbers the vertices of pieces, `moved` to where they have settled, in the order in which pieces have them.
+LineGraph number_pieces(const Arrangement& arrangement, std::span<const std::size_t> pieces,
+                        std::span<const std::size_t> moved, const std::set<Point, core::LexicographicOrder>& on_wall) {
+    LineGraph graph;
+    std::map<std::size_t, VertexId> number;
+    const auto vertex = [&](VertexId of_arrangement) {
+        const std::size_t v = moved[of_arrangement.index()];
+        const auto [at, is_new] = number.try_emplace(v, VertexId{graph.points.size()});
+        if (is_new) {
+            graph.points.push_back(arrangement.points[v]);
+            graph.on_wall.push_back(on_wall.contains(arrangement.points[v]) ? 1 : 0);
+        }
+        return at->second;
+    };
+    std::set<std::pair<VertexId, VertexId>> known;
+    for (const std::size_t i : pieces) {
+        const Segment& piece = arrangement.cells.segments[i];
+        const VertexId a = vertex(piece.a), b = vertex(piece.b);
+        if (a == b || !known.insert(std::minmax(a, b)).second) continue;
+        graph.pieces.push_back({a, b});
+        graph.line.push_back(arrangement.line[arrangement.cells.parents[i] - arrangement.walls.size()]);
+    }
+    return graph;
+}
+
+}  // namespace
+
+LineGraph arrange_lines(std::span<const InternalLine> lines, const decoupling::FarField& far_field,
+                        Geometry& geometry) {
+    if (lines.empty()) return {};
+    require_place_for_lines(lines, far_field.box(), geometry);
+    const Arrangement arrangement = arrange(lines, geometry);
+    const std::vector<std::size_t> pieces = pieces_in_flow(arrangement, geometry);
+    std::vector<char> used(arrangement.points.size());
+    for (const std::size_t i : pieces)
+        for (const VertexId v : {arrangement.cells.segments[i].a, arrangement.cells.segments[i].b}) used[v.index()] = 1;
     std::vector<std::size_t> moved(arrangement.points.size());
-    for (std::size_t v = 0; v < moved.size(); ++v) moved[v] = v;
+    std::iota(moved.begin(), moved.end(), std::size_t{0});
     const InsertedVertices inserted = settle_on_walls(arrangement, used, geometry.elements.size(), moved);
     std::set<Point, core::LexicographicOrder> on_wall(
         arrangement.points.begin(), arrangement.points.begin() + static_cast<std::ptrdiff_t>(arrangement.wall_points));
@@ -295,23 +336,7 @@ LineGraph arrange_lines(std::span<const InternalLine> lines, const decoupling::F
         for (const auto& [edge, points] : inserted[e]) on_wall.insert(points.begin(), points.end());
         if (!inserted[e].empty()) insert_vertices(inserted[e], geometry.elements[e]);
     }
-    std::map<std::size_t, VertexId> number;
-    std::set<std::pair<VertexId, VertexId>> known;
-    for (const std::size_t i : pieces) {
-        std::array<VertexId, 2> ends;
-        for (std::size_t k = 0; k < 2; ++k) {
-            const std::size_t v = moved[(k == 0 ? cells.segments[i].a : cells.segments[i].b).index()];
-            const auto [at, is_new] = number.try_emplace(v, VertexId{graph.points.size()});
-            if (is_new) {
-                graph.points.push_back(arrangement.points[v]);
-                graph.on_wall.push_back(on_wall.contains(arrangement.points[v]) ? 1 : 0);
-            }
-            ends[k] = at->second;
-        }
-        if (ends[0] == ends[1] || !known.insert(std::minmax(ends[0], ends[1])).second) continue;
-        graph.pieces.push_back({ends[0], ends[1]});
-        graph.line.push_back(arrangement.line[cells.parents[i] - arrangement.walls.size()]);
-    }
+    const LineGraph graph = number_pieces(arrangement, pieces, moved, on_wall);
     require_connected_domain(graph, lines, geometry);
     require_clear_of_sheets(graph, lines, geometry);
     return graph;
@@ -326,8 +351,7 @@ std::vector<SizeSource> sizes_between(const LineGraph& graph) {
         boxes.push_back(core::bounding_box(ends_of(k).first, ends_of(k).second));
     const core::BoxTree tree(std::move(boxes));
     std::vector<SizeSource> sources;
-    for (std::size_t v = 0; v < graph.points.size(); ++v) {
-        const Point p = graph.points[v];
+    for (const Point p : graph.points) {
         const double nearest = tree.min_distance(p, HUGE_VAL, [&](std::size_t k) {
             const auto [a, b] = ends_of(k);
             return a == p || b == p ? HUGE_VAL : core::distance_to_segment(p, a, b);
@@ -361,6 +385,27 @@ layers::Obstacles obstacles_of(const LineGraph& graph, double first_height) {
     return obstacles;
 }
 
+namespace {
+
+/// A segment with the places of its ends.
+struct PlacedSegment {
+    Segment ends;
+    Point a, b;
+};
+
+/// Returns whether two segments have more in common than one end.
+bool meets_border(const PlacedSegment& line, const PlacedSegment& edge) {
+    const bool shares_a = edge.ends.a == line.ends.a || edge.ends.b == line.ends.a;
+    const bool shares_b = edge.ends.a == line.ends.b || edge.ends.b == line.ends.b;
+    if (shares_a && shares_b) return true;
+    const auto other_end = [&](VertexId v) { return edge.ends.a == v ? edge.b : edge.a; };
+    if (shares_a) return core::segments_fold(line.a, line.b, other_end(line.ends.a));
+    if (shares_b) return core::segments_fold(line.b, line.a, other_end(line.ends.b));
+    return core::segments_meet(line.a, line.b, edge.a, edge.b);
+}
+
+}  // namespace
+
 decoupling::InnerLines inner_lines(const LineGraph& graph, std::span<const InternalLine> lines,
                                    const RegionBorders& region) {
     decoupling::InnerLines inner;
@@ -390,16 +435,7 @@ decoupling::InnerLines inner_lines(const LineGraph& graph, std::span<const Inter
         const Point a = graph.points[graph.pieces[i].a.index()], b = graph.points[graph.pieces[i].b.index()];
         tree.overlaps(core::bounding_box(a, b), [&](std::size_t e) {
             const Point c = region.points[edges[e].a.index()], d = region.points[edges[e].b.index()];
-            const bool shares_a = edges[e].a == line.a || edges[e].b == line.a;
-            const bool shares_b = edges[e].a == line.b || edges[e].b == line.b;
-            const auto folds = [&](Point at, Point other, VertexId v) {
-                return core::segments_fold(at, other, edges[e].a == v ? d : c);
-            };
-            const bool meets = shares_a && shares_b ? true
-                               : shares_a           ? folds(a, b, line.a)
-                               : shares_b           ? folds(b, a, line.b)
-                                                    : core::segments_meet(a, b, c, d);
-            if (meets)
+            if (meets_border({line, a, b}, {edges[e], c, d}))
                 throw MeshError(
                     fmt::format("the layer crosses the line {} near ({}, {}): make it thinner there, or move the "
                                 "line",
@@ -435,8 +471,8 @@ public:
             corners_.try_emplace(edge.a);
             corners_.try_emplace(edge.b);
         }
-        for (std::size_t t = 0; t < mesh.triangles.size(); ++t) collect(mesh.triangles[t].v, 3);
-        for (std::size_t q = 0; q < mesh.quads.size(); ++q) collect(mesh.quads[q].v, 4);
+        for (Triangle& triangle : mesh.triangles) collect(triangle.v, 3);
+        for (Quad& quad : mesh.quads) collect(quad.v, 4);
         for (auto& [v, corners] : corners_) number(v, corners);
     }
 

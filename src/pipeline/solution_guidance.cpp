@@ -36,8 +36,8 @@ std::vector<double> bounded_units(const std::vector<double>& units) {
     double friction = 0;
     for (const double unit : units) friction += 1 / (unit * unit * static_cast<double>(units.size()));
     const double longest = 1 / std::sqrt(least_friction * friction);
-    std::vector<double> bounded;
-    for (const double unit : units) bounded.push_back(std::min(unit, longest));
+    std::vector<double> bounded = units;
+    for (double& unit : bounded) unit = std::min(unit, longest);
     return bounded;
 }
 

@@ -244,12 +244,20 @@ void append_segments(const ConstrainedTriangulation& triangulation, const Border
     }
 }
 
+/// The task that one call of refine() has.
+struct RefinementTask {
+    const ConstrainedInput& input;
+    const ConstrainedTriangulation& triangulation;
+    const ConstrainedRefineOptions& options;
+    std::size_t user_points;
+};
+
 /// Joins the patches and the refined seam.
-ConstrainedRefinement join(std::size_t user_points, const ConstrainedTriangulation& triangulation,
-                           const FieldPatches& filled, const SeamDomain& seam, const BorderLines& lines,
-                           const SplittingRefiner& refiner, double min_angle_deg) {
+ConstrainedRefinement join(const RefinementTask& task, const FieldPatches& filled, const SeamDomain& seam,
+                           const BorderLines& lines, const SplittingRefiner& refiner, double min_angle_deg) {
     const LatticePatches& patches = filled.patches;
-    const std::size_t input_count = user_points + triangulation.steiner_points.size();
+    const std::size_t user_points = task.user_points;
+    const std::size_t input_count = user_points + task.triangulation.steiner_points.size();
     const std::size_t first_of_patch = input_count + lines.splits();
     const std::vector<Point> vertices = refiner.vertices();
     const std::vector<VertexId> ids = number_vertices(input_count, vertices.size(), seam, lines, patches.points.size());
@@ -273,18 +281,10 @@ ConstrainedRefinement join(std::size_t user_points, const ConstrainedTriangulati
         r.triangles.push_back({{ids[v[0]], ids[v[1]], ids[v[2]]}});
         r.regions.push_back(region_of_field(refiner.field_of(t)));
     }
-    append_segments(triangulation, lines, vertices, ids, r);
+    append_segments(task.triangulation, lines, vertices, ids, r);
     r.stats = refiner.count_leftovers(min_angle_deg);
     return r;
 }
-
-/// The task that one call of refine() has.
-struct RefinementTask {
-    const ConstrainedInput& input;
-    const ConstrainedTriangulation& triangulation;
-    const ConstrainedRefineOptions& options;
-    std::size_t user_points;
-};
 
 /// The result of one way to refine.
 struct Outcome {
@@ -305,8 +305,7 @@ Outcome refine_round(const FieldPatches& filled, const RefinementTask& task, Ref
     refiner.refine();
     Outcome outcome{{}, refiner.kept_out(), refiner.vertices().size() - before};
     if (filled.patches.empty() || outcome.kept_out.empty())
-        outcome.mesh =
-            join(task.user_points, task.triangulation, filled, seam, lines, refiner, task.options.refine.min_angle_deg);
+        outcome.mesh = join(task, filled, seam, lines, refiner, task.options.refine.min_angle_deg);
     return outcome;
 }
 

@@ -96,20 +96,20 @@ std::vector<char> have_near_points(std::span<const Point> points, double merge_d
     // Coordinates of near points differ by this much at most, and so lie in these three columns and rows of cells: the
     // distances above are rounded, too, and far from the origin a coordinate may have no other one near it.
     const double reach = merge_distance * (1 + 1e-9);
+    const auto has_near_point = [&](const PointInCell& p) {
+        const Point low = cell_containing(p.at - Point{reach, reach}, width),
+                    high = cell_containing(p.at + Point{reach, reach}, width);
+        const Point ends[] = {p.cell, low, high};
+        for (unsigned i = 0; i < 3; ++i) {
+            if (i > 0 && ends[i].x == p.cell.x) continue;
+            for (unsigned k = 0; k < 3; ++k)
+                if ((k == 0 || ends[k].y != p.cell.y) && near_in_cell(p, {ends[i].x, ends[k].y})) return true;
+        }
+        return false;
+    };
     std::vector<char> near(points.size());
     core::parallel_for(dealt.ranges(), 1, [&](std::size_t r, std::size_t) {
-        for (const PointInCell& p : dealt.range(r)) {
-            const Point low = cell_containing(p.at - Point{reach, reach}, width),
-                        high = cell_containing(p.at + Point{reach, reach}, width);
-            const Point ends[] = {p.cell, low, high};
-            bool found = false;
-            for (unsigned i = 0; i < 3 && !found; ++i) {
-                if (i > 0 && ends[i].x == p.cell.x) continue;
-                for (unsigned k = 0; k < 3 && !found; ++k)
-                    if (k == 0 || ends[k].y != p.cell.y) found = near_in_cell(p, {ends[i].x, ends[k].y});
-            }
-            near[p.index] = found;
-        }
+        for (const PointInCell& p : dealt.range(r)) near[p.index] = has_near_point(p);
     });
     return near;
 }
@@ -120,20 +120,24 @@ std::vector<Index> merge_close_points(std::span<const Point> points, double merg
     std::vector<Index> next_in_cell(points.size(), no_index), stand_in(points.size());
     // Beyond 2^53 cells from the origin the cells next to one may be the cell itself, and are, as are its points' own.
     const std::vector<char> near = have_near_points(points, merge_distance);
-    for (Index i = 0; i < points.size(); ++i) {
-        stand_in[i] = i;
-        if (!near[i]) continue;
-        const Point cell = cell_containing(points[i], merge_distance);
+    // Returns the first point near point i of those that stand for themselves; i where there is none.
+    const auto first_near = [&](Index i, Point cell) {
         Index found = i;
         for (const double dx : {-1.0, 0.0, 1.0})
             for (const double dy : {-1.0, 0.0, 1.0}) {
                 const auto list = first_in_cell.find({cell.x + dx + 0.0, cell.y + dy + 0.0});
-                if (list == first_in_cell.end()) continue;
-                for (Index k = list->second; k != no_index; k = next_in_cell[k])
+                for (Index k = list == first_in_cell.end() ? no_index : list->second; k != no_index;
+                     k = next_in_cell[k])
                     if (k < found && distance(points[k], points[i]) <= merge_distance) found = k;
             }
-        stand_in[i] = found;
-        if (found != i) continue;
+        return found;
+    };
+    for (Index i = 0; i < points.size(); ++i) {
+        stand_in[i] = i;
+        if (!near[i]) continue;
+        const Point cell = cell_containing(points[i], merge_distance);
+        stand_in[i] = first_near(i, cell);
+        if (stand_in[i] != i) continue;
         const auto [list, is_new] = first_in_cell.try_emplace(cell, i);
         if (!is_new) next_in_cell[i] = std::exchange(list->second, i);
     }

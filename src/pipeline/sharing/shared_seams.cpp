@@ -81,6 +81,14 @@ struct Question {
     std::size_t seam_edge = 0;
 };
 
+/// Takes the apex above an edge, or the area of the triangle there, from an answer.
+void take_answer(const Question& question, auto& seams, Unpacker& answer) {
+    if (question.apex)
+        seams.set_apex(question.seam_edge, answer.get<Point>());
+    else
+        seams.set_area(question.seam_edge, answer.get<double>());
+}
+
 /// Puts questions, piece by piece.
 std::string pack_questions(std::span<const Question> questions) {
     Packer packer;
@@ -278,20 +286,14 @@ void SharedSeams::ask(double even_ratio, mesh::PiecewiseCheck* check) {
     for (std::size_t rank = 0; rank < answers.size(); ++rank) {
         Unpacker unpacker(answers[rank]);
         for (const Question& question : asked[rank]) {
-            if (question.apex) {
-                const auto apex = unpacker.get<Point>();
-                question.along_layer ? check->set_apex(question.seam_edge, apex)
-                                     : seams_.set_apex(question.seam_edge, apex);
-            } else {
-                const auto area = unpacker.get<double>();
-                question.along_layer ? check->set_area(question.seam_edge, area)
-                                     : seams_.set_area(question.seam_edge, area);
-            }
-            if (question.ends) {
-                const Segment ends = seams_.edges()[question.seam_edge];
-                shared_.cut.lines.set_gathered(ends.a, unpacker.get<Point>());
-                shared_.cut.lines.set_gathered(ends.b, unpacker.get<Point>());
-            }
+            if (question.along_layer)
+                take_answer(question, *check, unpacker);
+            else
+                take_answer(question, seams_, unpacker);
+            if (!question.ends) continue;
+            const Segment ends = seams_.edges()[question.seam_edge];
+            shared_.cut.lines.set_gathered(ends.a, unpacker.get<Point>());
+            shared_.cut.lines.set_gathered(ends.b, unpacker.get<Point>());
         }
     }
 }
