@@ -12,6 +12,7 @@ from ._batch import BatchResult, batch
 from ._dynamic import DynamicTriangulation
 from ._errors import (Error, InputError, IoError, LimitError, MeshError, MeshWarning, OptionError, RunEstimate,
                       UsageError)
+from ._graph import NODE_TYPES
 from ._lamina import version as __version__
 from ._mesh import (Mesh, MeshCheck, QualitySummary, TransitionSummary, WallSummary, WallVertices, check, formats,
                     mesh_of_arrays, read)
@@ -23,7 +24,7 @@ from ._triangulation import (IndexLists, Triangulation, VoronoiDiagram, constrai
                              delaunay, merge_points, refine, ring_segments)
 
 __all__ = ["BatchResult", "DynamicTriangulation", "Error", "IndexLists", "InputError", "IoError", "LimitError", "Mesh",
-           "MeshCheck", "MeshError", "MeshWarning", "MorphMap", "OptionError", "QualitySummary", "RemeshedMesh", "RunEstimate",
+           "MeshCheck", "MeshError", "MeshWarning", "MorphMap", "NODE_TYPES", "OptionError", "QualitySummary", "RemeshedMesh", "RunEstimate",
            "TransitionSummary", "Triangulation", "UsageError", "VoronoiDiagram", "WallSummary", "WallVertices",
            "__version__", "batch", "check", "constrain_triangles", "constrained_delaunay", "delaunay", "formats",
            "merge_points", "mesh", "mesh_of_arrays", "naca", "outlines", "read", "read_metric", "refine", "remesh",

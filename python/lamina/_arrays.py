@@ -2,9 +2,49 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
+from typing import Any
+
 import numpy as np
 
 from ._errors import InputError
+
+
+def _equal(one: Any, other: Any) -> bool:
+    if isinstance(one, np.ndarray) or isinstance(other, np.ndarray):
+        one, other = np.asarray(one), np.asarray(other)
+        return np.array_equal(one, other, equal_nan=one.dtype.kind == other.dtype.kind == "f")
+    return bool(one == other)
+
+
+def _short(value: Any) -> str:
+    if isinstance(value, np.ndarray):
+        return "x".join(map(str, value.shape)) + f" {value.dtype}"
+    if isinstance(value, (list, tuple, dict)) and len(value) > 4:
+        return f"{len(value)} entries"
+    if isinstance(value, Values):
+        return f"{type(value).__name__}(...)"
+    return " ".join(repr(value).split())
+
+
+class Values:
+    """What frozen dataclasses need beside their fields, some of which are arrays: equality of all numbers, a hash, and
+    a description of one line."""
+
+    def __eq__(self, other: object) -> bool:
+        if type(other) is not type(self):
+            return NotImplemented
+        return all(_equal(getattr(self, f.name), getattr(other, f.name)) for f in fields(self))  # type: ignore[arg-type]
+
+    def __hash__(self) -> int:
+        # Of arrays: their shapes, which equal ones have in common, and which cost nothing.
+        values = [getattr(self, f.name) for f in fields(self)]  # type: ignore[arg-type]
+        return hash((type(self).__name__, *(np.shape(v) for v in values if isinstance(v, np.ndarray)),
+                     *(v for v in values if isinstance(v, (str, int, float)))))
+
+    def __repr__(self) -> str:
+        parts = (f"{f.name}={_short(getattr(self, f.name))}" for f in fields(self))  # type: ignore[arg-type]
+        return f"{type(self).__name__}({', '.join(parts)})"
 
 
 def points_array(points, name: str = "points") -> np.ndarray:

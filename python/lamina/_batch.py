@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from . import _lamina
+from ._arrays import Values
 from ._errors import Error, UsageError
 from ._mesh import Mesh
 from ._meshing import make_mesh
@@ -21,8 +22,8 @@ from ._options import option_values
 from ._sections import Sections
 
 
-@dataclass(frozen=True)
-class BatchResult:
+@dataclass(frozen=True, eq=False, repr=False)
+class BatchResult(Values):
     """What became of one job of `lamina.batch()`: `mesh` or `error` is None."""
 
     name: str  #: of the input

@@ -82,3 +82,10 @@ class DynamicTriangulation:
     def __contains__(self, number: int) -> bool:
         """Returns whether this is the number of a point that was not removed."""
         return 0 <= number < 2**32 and self._data.contains(number)
+
+    def __bool__(self) -> bool:
+        return True  # also without points
+
+    def __repr__(self) -> str:
+        return (f"<lamina.DynamicTriangulation: {len(self):,} points, {len(self.triangles):,} triangles, "
+                f"{len(self.segments):,} edges of segments>")

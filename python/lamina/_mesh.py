@@ -14,16 +14,17 @@ from typing import Any, Literal, Mapping, NoReturn
 import numpy as np
 
 from . import _lamina
-from ._arrays import immutable, index_array, points_array
+from ._arrays import Values, immutable, index_array, points_array
 from ._errors import MeshWarning, UsageError
+from ._graph import MeshEdges, areas_and_centres, edge_index, edge_normals, find_edges, node_types
 from ._sections import Sections
 
 #: The kinds of markers, in the order of the C++ enumeration.
 _KINDS = _lamina.marker_kinds
 
 
-@dataclass(frozen=True)
-class QualitySummary:
+@dataclass(frozen=True, eq=False, repr=False)
+class QualitySummary(Values):
     """Statistics of the cells of one region; all numbers are 0 where there are no cells. Angles are in degrees."""
 
     cells: int  #: number of cells
@@ -69,8 +70,8 @@ class WallSummary:
     worst_first_height_at: tuple[float, float]  #: the wall vertex at its edge's start
 
 
-@dataclass(frozen=True)
-class MeshCheck:
+@dataclass(frozen=True, eq=False, repr=False)
+class MeshCheck(Values):
     """The result of `lamina.check()`: whether the mesh is valid, exactly, and how good it is."""
 
     defects: list[tuple[str, tuple[float, float]]]  #: the first 20, each with a place; empty: the mesh is valid
@@ -112,8 +113,8 @@ class MeshCheck:
         return _html_table(self._rows())
 
 
-@dataclass(frozen=True)
-class WallVertices:
+@dataclass(frozen=True, eq=False, repr=False)
+class WallVertices(Values):
     """The vertices of the walls, body by body in the order of the outline, counter-clockwise round each."""
 
     vertex: np.ndarray  #: (n,) indices into Mesh.points
@@ -240,6 +241,62 @@ class Mesh:
         """Per point: the distance to the nearest edge of a wall, in units of the input. Computed on demand."""
         return self._data.wall_distances()
 
+    @cached_property
+    def _edges(self) -> MeshEdges:
+        return find_edges(self.triangles, self.quads)
+
+    @property
+    def edges(self) -> np.ndarray:
+        """(e, 2) the edges of all cells, each once, with the smaller index first; sorted. 64-bit, as all below."""
+        return self._edges.ends
+
+    @property
+    def edge_cells(self) -> np.ndarray:
+        """(e, 2) the cells beside each edge, the smaller index first; -1 in place of the second on the boundary."""
+        return self._edges.cells
+
+    @property
+    def neighbours(self) -> np.ndarray:
+        """(cells, 3), or (cells, 4) with quads: the cell across the edge from corner i to the next one; -1: none."""
+        return self._edges.neighbours
+
+    @cached_property
+    def _areas_and_centres(self) -> tuple[np.ndarray, np.ndarray]:
+        return areas_and_centres(self.points, self.triangles, self.quads)
+
+    @property
+    def areas(self) -> np.ndarray:
+        """(cells,) areas, in units of the input."""
+        return self._areas_and_centres[0]
+
+    @property
+    def cell_centres(self) -> np.ndarray:
+        """(cells, 2) centres of gravity."""
+        return self._areas_and_centres[1]
+
+    @cached_property
+    def edge_normals(self) -> np.ndarray:
+        """(e, 2) unit normals of `edges`, out of the first of `edge_cells`: out of the mesh on the boundary."""
+        return edge_normals(self.points, self._edges, self.cell_centres)
+
+    @cached_property
+    def node_type(self) -> np.ndarray:
+        """(n,) for each point an index into `lamina.NODE_TYPES`: 0 inside, 1 on a wall, 2 on the far field, and so on.
+        Where markers meet, the smaller number counts."""
+        return node_types(self)
+
+    def edge_index(self, *, both_directions: bool = False, of: Literal["points", "cells"] = "points",
+                   dtype: Any = np.int64) -> np.ndarray:
+        """Returns the edges as PyTorch Geometric takes them: (2, E), int64 or int32.
+
+        of: the nodes of the graph are the points, or the cells, which are joined across edges. both_directions: each
+        edge comes a second time turned round, in the second half.
+        """
+        if of not in ("points", "cells"):
+            raise UsageError(f"of: must be 'points' or 'cells', not {of!r}")
+        pairs = self.edges if of == "points" else self.edge_cells[self.edge_cells[:, 1] >= 0]
+        return edge_index(pairs, both_directions, dtype)
+
     @property
     def wall(self) -> WallVertices:
         """The vertices of the walls in order, with arc length, normal and first height. Computed on demand."""
@@ -319,19 +376,46 @@ class Mesh:
 
         return draw_mesh(self, ax, window, color, style)
 
-    def to_meshio(self):
-        """Returns the mesh as a `meshio.Mesh`: cells, one block of lines for each marker, data `layer` and `region` of
-        the cells, and one set of cells for each marker. Needs meshio."""
+    def to_meshio(self) -> Any:
+        """Returns the mesh as a `meshio.Mesh`: cells, one block of lines and one set for each marker; data `layer` and
+        `region` of the cells, `wall_distance` and `node_type` of the points. Needs meshio."""
         from ._export import to_meshio
 
         return to_meshio(self)
 
-    def to_pyvista(self):
-        """Returns the mesh as a `pyvista.UnstructuredGrid` with the data `layer` and `region` of the cells. Needs
-        pyvista."""
+    def to_pyvista(self) -> Any:
+        """Returns the mesh as a `pyvista.UnstructuredGrid` with the data of `to_meshio()`; its field data
+        "marker NAME" hold the edges of each marker. Needs pyvista."""
         from ._export import to_pyvista
 
         return to_pyvista(self)
+
+    def to_pyg(self) -> Any:
+        """Returns the mesh as a `torch_geometric.data.Data`: `pos`, `edge_index` in both directions, `edge_attr` (step
+        in x and y, length), `node_type`, `wall_distance`; `face` where all cells are triangles. Needs PyTorch Geometric."""
+        from ._export import to_pyg
+
+        return to_pyg(self)
+
+    def to_networkx(self) -> Any:
+        """Returns the points and edges as a `networkx.Graph`: nodes with `pos`, `node_type` and `wall_distance`, edges
+        with `length`. Needs networkx."""
+        from ._export import to_networkx
+
+        return to_networkx(self)
+
+    def to_xarray(self) -> Any:
+        """Returns the mesh as an `xarray.Dataset` by the UGRID conventions, which netCDF files keep. Needs xarray."""
+        from ._export import to_xarray
+
+        return to_xarray(self)
+
+    def to_row(self) -> dict[str, Any]:
+        """Returns the mesh as flat columns, one row of a data set: `pyarrow.Table.from_pylist([mesh.to_row()])` makes
+        a table, which Parquet files hold."""
+        from ._export import to_row
+
+        return to_row(self)
 
     def __len__(self) -> int:
         return len(self.triangles) + len(self.quads)

@@ -28,6 +28,12 @@ class MorphMap:
         self.wall = self._map.wall()  #: (n,) indices of the wall vertices into Mesh.points
         self.wall_points = self._map.wall_points()  #: (n, 2) where they are in the mesh
 
+    def __len__(self) -> int:
+        return len(self.wall)
+
+    def __repr__(self) -> str:
+        return f"<lamina.MorphMap of {len(self.wall):,} wall vertices of {self._mesh!r}>"
+
     def walls_on(self, shape: Sections) -> np.ndarray:
         """Returns the wall points on other shapes, one per body in the order of the mesh: files, names or arrays.
 

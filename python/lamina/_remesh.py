@@ -8,12 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from . import _lamina
+from ._arrays import Values
 from ._errors import InputError
 from ._mesh import Mesh
 
 
-@dataclass(frozen=True)
-class RemeshedMesh:
+@dataclass(frozen=True, eq=False, repr=False)
+class RemeshedMesh(Values):
     """The result of `lamina.remesh()`."""
 
     mesh: Mesh  #: vertices that stay come first, in the order that they had

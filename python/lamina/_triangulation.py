@@ -11,12 +11,12 @@ from typing import Any
 import numpy as np
 
 from . import _lamina
-from ._arrays import immutable, index_array, points_array
+from ._arrays import Values, immutable, index_array, points_array
 from ._errors import InputError, OptionError
 
 
-@dataclass(frozen=True, eq=False)
-class IndexLists(Sequence):
+@dataclass(frozen=True, eq=False, repr=False)
+class IndexLists(Values, Sequence):
     """Lists of different lengths in one array: list i is `items[starts[i]:starts[i + 1]]`."""
 
     starts: np.ndarray  #: (n + 1,) where the lists begin, and the end of the last one
@@ -34,8 +34,8 @@ class IndexLists(Sequence):
         return self.items[self.starts[i]:self.starts[i + 1]]
 
 
-@dataclass(frozen=True)
-class VoronoiDiagram:
+@dataclass(frozen=True, eq=False, repr=False)
+class VoronoiDiagram(Values):
     """A Voronoi diagram. Corners have the indices of the triangles whose centres they are."""
 
     corners: np.ndarray  #: (m, 2)
@@ -44,7 +44,7 @@ class VoronoiDiagram:
     directions: np.ndarray  #: (h, 2) the directions of the rays
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Triangulation:
     """A triangulation of points. Indices refer to `points`: those handed in, followed by Steiner points.
 
@@ -74,6 +74,16 @@ class Triangulation:
 
     def __hash__(self) -> int:
         return hash((len(self.points), self.triangles.tobytes()))
+
+    def __len__(self) -> int:
+        return len(self.triangles)
+
+    def __bool__(self) -> bool:
+        return True  # also where there are no triangles
+
+    def __repr__(self) -> str:
+        return (f"<lamina.Triangulation: {len(self.points):,} points, {len(self.triangles):,} triangles, "
+                f"{len(self.segments):,} edges of segments>")
 
     def __copy__(self) -> Triangulation:
         return self
