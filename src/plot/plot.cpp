@@ -40,16 +40,6 @@ struct LineWidths {
 
 // --- Drawing
 
-/// Fills the cells. If with_grey is set, cells so thin that their edges would merge into a blot get the grey into which
-/// edges fade.
-void draw_cells(Canvas& canvas, const std::vector<VisibleCell>& cells, const std::vector<Color>& colors,
-                const PictureView& view, bool with_grey) {
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-        const bool too_thin = with_grey && cells[i].thickness() * view.scale < min_outlined_thickness;
-        canvas.fill(cells[i], too_thin ? mix(colors[i], ink, 0.4) : colors[i]);
-    }
-}
-
 /// Returns the widths of lines, which follow the zoom: lines are wider where edges are long.
 LineWidths line_widths(const std::vector<VisibleCell>& cells, const PictureView& view) {
     std::vector<double> lengths;
@@ -62,6 +52,29 @@ LineWidths line_widths(const std::vector<VisibleCell>& cells, const PictureView&
     const double unit = std::max(1.0, std::max(view.width, view.height) / 1600);
     const double edge = unit * std::clamp(0.012 * (lengths.empty() ? 50.0 : *middle), 0.45, 1.5);
     return {edge, std::clamp(3.3 * edge, 1.6 * unit, 4 * unit), 2 * edge};
+}
+
+/// Returns the share of its full width and ink that an edge keeps where the thinner one of its cells is so thin: as much
+/// as lets the edges of many such cells side by side cover half of the paper, however thin they are.
+double kept_share(double thickness, double width) { return std::min(1.0, 0.5 * thickness / width); }
+
+/// Returns the share of a thin cell that its edges would cover. Half of each is the neighbour's.
+double covered_share(const VisibleCell& cell, const PictureView& view, double width) {
+    double length = 0;
+    for (std::size_t i = 0; i < cell.corners; ++i)
+        length += distance(cell.corner[i], cell.corner[(i + 1) % cell.corners]);
+    const double drawn = width * kept_share(cell.thickness() * view.scale, width) / view.scale;
+    return cell.area() > 0 ? std::min(0.5 * length * drawn / cell.area(), 1.0) : 0;
+}
+
+/// Fills the cells. If with_grey is set, cells so thin that their edges would merge into a blot get the grey of the ink
+/// that their edges have on the whole, so that no pale line lies between them and thicker ones.
+void draw_cells(Canvas& canvas, const std::vector<VisibleCell>& cells, const std::vector<Color>& colors,
+                const PictureView& view, bool with_grey, double width) {
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        const bool too_thin = with_grey && cells[i].thickness() * view.scale < min_outlined_thickness;
+        canvas.fill(cells[i], too_thin ? mix(colors[i], ink, covered_share(cells[i], view, width)) : colors[i]);
+    }
 }
 
 /// Draws each edge once, and fainter where the cells beside it are thin.
@@ -86,7 +99,7 @@ void draw_edges(Canvas& canvas, const Mesh& mesh, const std::vector<VisibleCell>
     for (std::size_t i = 0; i < edges.size(); ++i) {
         if (i > 0 && edges[i].ends == edges[i - 1].ends) continue;
         const auto [a, b] = edges[i].ends;
-        const double alpha = max_alpha * std::min(1.0, 0.5 * edges[i].thickness / width);
+        const double alpha = max_alpha * kept_share(edges[i].thickness, width);
         canvas.stroke(mesh.points[a.index()], mesh.points[b.index()], ink, alpha, width);
     }
 }
@@ -134,7 +147,7 @@ DrawnCells take_small_cells(DrawnCells& drawn, const PictureView& view) {
 
 void draw_drawn_cells(Canvas& canvas, const Mesh& mesh, const DrawnCells& drawn, const PictureView& view, bool colored,
                       double edge_width) {
-    draw_cells(canvas, drawn.cells, drawn.colors, view, !colored);
+    draw_cells(canvas, drawn.cells, drawn.colors, view, !colored, edge_width);
     draw_edges(canvas, mesh, drawn.cells, view, edge_width, colored ? 0.45 : 1);
 }
 

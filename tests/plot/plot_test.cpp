@@ -1,7 +1,11 @@
 // Pictures of meshes.
+#include <cairo.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <memory>
+#include <numeric>
 #include <set>
 #include <string>
 #include <vector>
@@ -196,6 +200,65 @@ TEST(Chart, OnePointAndLevelCurvesHaveAxes) {
     for (const double value : {0.0, 1.0, -3e-12, 1e9}) {
         const std::vector<ChartCurve> curves{{"level", {{0, value}, {1, value}}}, {"point", {{0.5, value}}}};
         EXPECT_NO_THROW(plot_chart(curves, folder / "c.png", {.width_px = 100}));
+    }
+}
+
+/// Returns rows of cells over a wall along the x axis from 0 to 1, each row a quarter higher than the one below.
+Mesh rows_over_wall(bool quads) {
+    constexpr std::uint32_t columns = 40, rows = 45;
+    Mesh mesh;
+    double y = 0, height = 1e-5;
+    for (std::uint32_t row = 0; row <= rows; ++row, y += height, height *= 1.25)
+        for (std::uint32_t i = 0; i <= columns; ++i) mesh.points.push_back({i / double(columns), y});
+    const auto at = [](std::uint32_t row, std::uint32_t i) { return VertexId(row * (columns + 1) + i); };
+    Marker wall{"wall", MarkerKind::wall, {}};
+    for (std::uint32_t i = 0; i < columns; ++i) wall.edges.push_back({at(0, i), at(0, i + 1)});
+    for (std::uint32_t row = 0; row < rows; ++row)
+        for (std::uint32_t i = 0; i < columns; ++i) {
+            const VertexId a = at(row, i), b = at(row, i + 1), c = at(row + 1, i + 1), d = at(row + 1, i);
+            if (quads) {
+                mesh.quads.push_back({{a, b, c, d}});
+            } else {
+                mesh.triangles.push_back({{a, b, c}});
+                mesh.triangles.push_back({{a, c, d}});
+            }
+        }
+    mesh.markers = {wall};
+    return mesh;
+}
+
+/// Returns the mean brightness of each row of pixels of a picture, from 0 to 255, from its bottom up.
+std::vector<double> brightness_of_rows(const std::filesystem::path& png) {
+    const std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)> image{
+        cairo_image_surface_create_from_png(png.c_str()), cairo_surface_destroy};
+    const int width = cairo_image_surface_get_width(image.get()), height = cairo_image_surface_get_height(image.get());
+    std::vector<double> rows;
+    for (int y = height - 1; y >= 0; --y) {
+        const unsigned char* row =
+            cairo_image_surface_get_data(image.get()) + y * cairo_image_surface_get_stride(image.get());
+        double sum = 0;
+        for (int x = 0; x < width; ++x) sum += row[4 * x] + row[4 * x + 1] + row[4 * x + 2];
+        rows.push_back(sum / (3.0 * width));
+    }
+    return rows;
+}
+
+// Where edges merge into grey, it must be as dark as they are: it was paler by 22 of 255, and walls seemed to have a gap.
+TEST(Plot, NoPaleStripLiesBesideAWall) {
+    constexpr int width = 2000, wall_and_blending = 4, strip = 6;
+    const TemporaryFolder folder;
+    for (const bool quads : {true, false}) {
+        plot_mesh(rows_over_wall(quads), folder / "wall.png",
+                  {.window = PlotWindow{.box = {0.2, 0.8, 0, 0.2}}, .width_px = width});
+        const std::vector<double> rows = brightness_of_rows(folder / "wall.png");
+        const auto mean = [&](int from) {
+            return std::accumulate(rows.begin() + from, rows.begin() + from + strip, 0.0) / strip;
+        };
+        const double beside = mean(wall_and_blending);
+        for (int from = wall_and_blending; from < 60; ++from)
+            EXPECT_LT(beside, mean(from) + 12) << quads << " " << from;
+        EXPECT_LT(beside, 170) << quads;
+        EXPECT_GT(mean(200), 200) << quads;
     }
 }
 
