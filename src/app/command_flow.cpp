@@ -21,6 +21,7 @@
 
 #include "app/case.hpp"
 #include "app/commands.hpp"
+#include "app/flow_run.hpp"
 #include "app/options.hpp"
 #include "app/progress.hpp"
 #include "app/run_files.hpp"
@@ -222,20 +223,17 @@ void draw_mach_numbers(const CompressibleFlow& flow, const std::string& file) {
                {.window = window, .axes = true, .color_bar = true});
 }
 
-/// Solves the flow that the conditions ask for: compressible flow with shocks where it is faster than sound, else potential
-/// flow with boundary layers, whose pressures are those of compressible flow where there is a Mach number.
-FlowText solve(const Geometry& given, const Geometry& prepared, const FlowConditions& conditions,
-               const FlowWalls& walls, bool has_layers) {
-    const Flow flow = solve_flow(prepared, conditions, walls);
-    if (is_beyond_critical(flow, conditions)) return text_of(solve_compressible_flow(given, conditions));
-    print_warnings(flow.warnings);
-    if (!conditions.mach) return text_of(flow, "", has_layers);
-    const std::string before = fmt::format(
-        "Mach {:.4g} is below the critical Mach number, but for short peaks: pressures and lift of incompressible "
-        "flow, "
-        "after Karman and Tsien\n",
-        *conditions.mach);
-    return text_of(with_compressed_pressures(flow, *conditions.mach), before, has_layers);
+/// Prints the warnings of the flow, and returns its text.
+FlowText text_of(FoundFlow found, const std::optional<double>& mach) {
+    if (found.compressible) return text_of(std::move(*found.compressible));
+    print_warnings(found.flow.warnings);
+    const std::string before =
+        !mach ? ""
+              : fmt::format(
+                    "Mach {:.4g} is below the critical Mach number, but for short peaks: pressures and lift of "
+                    "incompressible flow, after Karman and Tsien\n",
+                    *mach);
+    return text_of(found.flow, before, found.has_layers);
 }
 
 std::vector<RunFile> files_written(const FlowArguments& arguments) {
@@ -268,15 +266,9 @@ void flow(const FlowArguments& arguments) {
 
     CaseOptions& options = mesh_case.options;
     options.conditions = conditions;
-    Geometry geometry = read_geometry(mesh_case.inputs, options.geometry);
-    if (const FarFieldOptions& domain = options.far_field; domain.pitch)
-        geometry = blade_row(geometry,
-                             in_units(*domain.pitch, reference_conditions(conditions, reference_box(geometry)).chord),
-                             domain.stagger_deg);
-    const ReferenceConditions reference = reference_conditions(conditions, reference_box(geometry));
+    const Geometry geometry = read_geometry(mesh_case.inputs, options.geometry);
     print_warnings_of_reader(geometry);
-    const FlowText text = solve(geometry, prepare_surfaces(geometry, options.surface, reference.chord), conditions,
-                                flow_walls(geometry, options), reference.reynolds.has_value());
+    const FlowText text = text_of(find_flow(geometry, options), conditions.mach);
     if (!arguments.mach_picture.empty() && !text.compressible)
         throw UsageError(
             "option --mach-picture: at this Mach number the flow is slower than sound, but for short peaks");
