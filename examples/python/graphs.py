@@ -26,17 +26,21 @@ def graphs(count):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--meshes", type=int, default=100, choices=range(1, 120), metavar="N")
+    parser.add_argument("-o", "--output", default="graphs.pt", help="file of all graphs, for torch.load()")
     arguments = parser.parse_args()
     if importlib.util.find_spec("torch_geometric") is None:
         print("torch_geometric is not installed: pip install torch torch_geometric")
         return
+    import torch
     from torch_geometric.loader import DataLoader
 
     start = time.perf_counter()
-    loader = DataLoader(list(graphs(arguments.meshes)), batch_size=16, shuffle=True)
+    data = list(graphs(arguments.meshes))
+    torch.save(data, arguments.output)
+    loader = DataLoader(data, batch_size=16, shuffle=True)
     for number, batch in enumerate(loader):
         print(f"batch {number}: {batch.num_graphs} meshes, {batch.num_nodes:,} points, {batch.num_edges:,} edges")
-    print(f"{len(loader.dataset)} meshes in {time.perf_counter() - start:.1f} s")
+    print(f"{len(data)} meshes in {time.perf_counter() - start:.1f} s")
 
 
 if __name__ == "__main__":

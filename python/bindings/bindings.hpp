@@ -14,7 +14,16 @@ void add_options(nanobind::module_& module);
 /// Adds sections: NACA sections and files of coordinates.
 void add_sections(nanobind::module_& module);
 
-/// Adds meshes: how they are made, read, checked and written.
+/// Adds runs that make meshes, and cases of flow solvers.
+void add_runs(nanobind::module_& module);
+
+/// Adds what the commands of the program do beside that: the program itself, facts about bodies, pages, sizes.
+void add_commands(nanobind::module_& module);
+
+/// Adds the flow before the mesh.
+void add_flows(nanobind::module_& module);
+
+/// Adds meshes: how they are read, checked and written.
 void add_meshes(nanobind::module_& module);
 
 /// Adds meshes that are moved to other shapes.

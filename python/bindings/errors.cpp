@@ -1,5 +1,6 @@
 // The errors of the library as Python exceptions that hold the same data. lamina/_errors.py has their classes.
 #include <exception>
+#include <string>
 
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/string.h>
@@ -17,25 +18,29 @@ namespace nb = nanobind;
 
 namespace {
 
+/// Returns a message with names of options as Python has them.
+nb::object in_python(const std::string& message) {
+    return nb::module_::import_("lamina._errors").attr("in_python")(message);
+}
+
 /// Sets the exception of this class of lamina._errors, with this data as its attributes.
 void set_error(const char* class_name, const Error& error, const nb::dict& data) {
-    const nb::object type = nb::module_::import_("lamina._errors").attr(class_name);
-    const nb::object exception = type(error.what());
+    const nb::object exception = nb::module_::import_("lamina._errors").attr(class_name)(in_python(error.what()));
     for (auto [name, value] : data) nb::setattr(exception, name, value);
-    PyErr_SetObject(type.ptr(), exception.ptr());
+    PyErr_SetObject(exception.type().ptr(), exception.ptr());
 }
 
 nb::dict option_data(const OptionError& error) {
     nb::dict data;
     data["option"] = error.option();
-    data["reason"] = error.reason();
+    data["reason"] = in_python(error.reason());
     return data;
 }
 
 nb::dict place_data(const InputError& error) {
     const InputPlace& place = error.place();
     nb::dict data;
-    data["reason"] = error.reason();
+    data["reason"] = in_python(error.reason());
     data["file"] = place.file;
     data["line"] = place.line;
     data["at"] = to_python(place.at);
@@ -64,9 +69,9 @@ void set_error_of(const std::exception_ptr& thrown) {
         data["at"] = to_python(error.at());
         set_error("MeshError", error, data);
     } catch (const IoError& error) {
-        data["file"] = error.file();
-        data["reason"] = error.reason();
-        set_error("IoError", error, data);
+        const nb::object exception =
+            nb::module_::import_("lamina._errors").attr("io_error")(error.what(), error.file(), error.reason());
+        PyErr_SetObject(exception.type().ptr(), exception.ptr());
     }
 }
 

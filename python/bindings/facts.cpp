@@ -31,24 +31,6 @@ nb::dict seconds_of(const StageSeconds& seconds) {
     return result;
 }
 
-/// Returns the facts about element e.
-nb::dict element_of(const MeshResult& result, std::size_t e) {
-    const Element& element = result.geometry.elements[e];
-    nb::dict facts;
-    facts["name"] = element.name;
-    facts["source"] = element.file;
-    facts["title"] = element.title;
-    facts["format"] = element.format;
-    facts["points_read"] = element.points_read;
-    facts["repairs"] = element.repairs;
-    facts["transformations"] = element.transformations;
-    facts["surface_notes"] = element.surface_notes;
-    facts["wall_vertices"] = element.points.size();
-    facts["trailing_edge"] = to_python(element.features.trailing_edge);
-    facts["first_height"] = e < result.first_heights.size() ? nb::cast(result.first_heights[e]) : nb::none();
-    return facts;
-}
-
 nb::dict quality_of(const QualitySummary& quality) {
     nb::dict result;
     result["cells"] = quality.cells;
@@ -110,6 +92,21 @@ nb::list warnings_of(const std::vector<Warning>& warnings) {
     return result;
 }
 
+nb::dict facts_of(const Element& element) {
+    nb::dict facts;
+    facts["name"] = element.name;
+    facts["source"] = element.file;
+    facts["title"] = element.title;
+    facts["format"] = element.format;
+    facts["points_read"] = element.points_read;
+    facts["repairs"] = element.repairs;
+    facts["transformations"] = element.transformations;
+    facts["surface_notes"] = element.surface_notes;
+    facts["wall_vertices"] = element.points.size();
+    facts["trailing_edge"] = to_python(element.features.trailing_edge);
+    return facts;
+}
+
 nb::dict facts_of(const MeshResult& result) {
     nb::dict facts;
     facts["chord"] = result.conditions.chord;
@@ -118,7 +115,11 @@ nb::dict facts_of(const MeshResult& result) {
     facts["mach"] = result.conditions.mach;
     facts["threads"] = result.threads;
     nb::list elements;
-    for (std::size_t e = 0; e < result.geometry.elements.size(); ++e) elements.append(element_of(result, e));
+    for (std::size_t e = 0; e < result.geometry.elements.size(); ++e) {
+        nb::dict element = facts_of(result.geometry.elements[e]);
+        element["first_height"] = e < result.first_heights.size() ? nb::cast(result.first_heights[e]) : nb::none();
+        elements.append(element);
+    }
     facts["elements"] = elements;
     facts["thinned_rays"] = result.thinned_rays;
     facts["estimate"] = to_python(result.estimate);

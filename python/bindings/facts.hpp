@@ -5,6 +5,7 @@
 
 #include <nanobind/nanobind.h>
 
+#include <lamina/geometry.hpp>
 #include <lamina/mesh.hpp>
 #include <lamina/pipeline.hpp>
 #include <lamina/warning.hpp>
@@ -13,6 +14,9 @@ namespace lamina::python {
 
 /// Returns one dictionary for each warning, with the attributes of lamina.MeshWarning.
 nanobind::list warnings_of(const std::vector<Warning>& warnings);
+
+/// Returns what is known of a body before there is a mesh round it.
+nanobind::dict facts_of(const Element& element);
 
 /// Returns what the run says beside the mesh.
 nanobind::dict facts_of(const MeshResult& result);

@@ -1,23 +1,19 @@
-// Meshes: made, read, checked, written, and seen as arrays without copies.
+// Meshes: read, checked, written, and seen as arrays without copies.
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/optional.h>
-#include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
-#include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
 #include <lamina/files.hpp>
 #include <lamina/io.hpp>
 #include <lamina/metric.hpp>
-#include <lamina/pipeline.hpp>
 #include <lamina/remesh.hpp>
 #include <lamina/warning.hpp>
 
@@ -26,64 +22,11 @@
 #include "core/marker_names.hpp"
 #include "facts.hpp"
 #include "interruption.hpp"
-#include "request.hpp"
-#include "sections.hpp"
 #include "shared_mesh.hpp"
 
 namespace lamina::python {
 
 namespace {
-
-using OptionValues = std::vector<std::pair<std::string, OptionValue>>;
-using Background = std::tuple<PointsArgument, RowsArgument<std::uint32_t, 3>, ListArgument<double>>;
-
-std::shared_ptr<const SizedMesh> background_of(const Background& arrays) {
-    const auto& [points, triangles, sizes] = arrays;
-    auto mesh = std::make_shared<SizedMesh>();
-    mesh->points = points_of(points);
-    mesh->triangles = cells_of<Triangle, 3>(triangles);
-    mesh->sizes.assign(sizes.data(), sizes.data() + sizes.shape(0));
-    return mesh;
-}
-
-/// Throws MeshError where isotropic triangles have angles below the bound that no sharp corner excuses, unless defects
-/// are allowed or there are lines inside the domain.
-void require_promised_angles(const MeshResult& result, const MeshRequest& request) {
-    const std::size_t narrow = result.check.isotropic.unexcused();
-    if (request.allow_defects || !request.options.lines.empty() || narrow == 0) return;
-    std::optional<Point> at;
-    if (!result.check.unexcused_cells.empty() && result.check.unexcused_cells[0] < result.mesh.triangles.size())
-        at = result.mesh.points[result.mesh.triangles[result.check.unexcused_cells[0]].v[0].index()];
-    throw MeshError(
-        fmt::format("{} triangle{} beyond the layer {} an angle below the bound (allow_defects=True returns "
-                    "the mesh all the same)",
-                    narrow, narrow == 1 ? "" : "s", narrow == 1 ? "has" : "have"),
-        at);
-}
-
-/// Makes a mesh. Returns it with its warnings, the facts about the run, and the columns of the layer: of its cells, and
-/// the vertices at which they begin. What `stop` raises ends the run; it is called now and then unless it is None.
-nb::tuple generate(const nb::list& given_sections, const OptionValues& values, const std::optional<Background>& sizes,
-                   const nb::object& callback, const nb::object& stop) {
-    MeshRequest request = make_request(values);
-    if (sizes) request.options.sizing.background = background_of(*sizes);
-    request.options.limits = with_default_limits(request.options.limits);
-    const std::vector<Section> sections = sections_of(given_sections);
-    const Progress progress = python_progress(callback);
-    MeshResult result;
-    run_unlocked(
-        [&] {
-            const Geometry geometry = geometry_of(sections, request.options.geometry);
-            result = generate_mesh(geometry, request.options, progress);
-            require_promised_angles(result, request);
-        },
-        stop);
-    nb::list warnings = warnings_of(result.warnings);
-    nb::dict facts = facts_of(result);
-    const nb::tuple columns = nb::make_tuple(owning_array<std::uint32_t>(std::move(result.columns)),
-                                             owning_array<std::uint32_t>(std::move(result.column_origins)));
-    return nb::make_tuple(shared(std::move(result.mesh)), warnings, facts, columns);
-}
 
 SharedMesh read(const std::string& file, const std::string& format) {
     const nb::gil_scoped_release unlocked;
@@ -243,8 +186,6 @@ void add_meshes(nb::module_& module) {
             const nb::gil_scoped_release unlocked;
             return mesh_hash(*mesh);
         });
-    module.def("generate", &generate, nb::arg("sections"), nb::arg("values"), nb::arg("sizes").none(),
-               nb::arg("progress").none(), nb::arg("stop") = nb::none());
     module.def("read", &read);
     module.def("read_metric", [](const std::string& file) { return owning_array<double>(read_metric(file)); });
     module.def("remesh", &remesh_by, nb::arg("mesh"), nb::arg("metric"), nb::arg("divide_borders"),

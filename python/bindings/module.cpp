@@ -11,6 +11,9 @@ NB_MODULE(_lamina, module) {
     lamina::python::add_options(module);
     lamina::python::add_sections(module);
     lamina::python::add_meshes(module);
+    lamina::python::add_runs(module);
+    lamina::python::add_commands(module);
+    lamina::python::add_flows(module);
     lamina::python::add_morphing(module);
     lamina::python::add_triangulations(module);
     lamina::python::add_triangulation_queries(module);

@@ -85,14 +85,13 @@ MeshRequest make_request(const std::vector<std::pair<std::string, OptionValue>>&
         if (key == preset_key) find_row_of_key(request_table(), key).set(request, value);
     request.options =
         preset_options(request.preset, std::any_of(std::begin(reynolds_options), std::end(reynolds_options), is_given));
-    std::vector<std::string> given;
     for (const auto& [key, value] : values) {
         refuse_former_option(key);
         const Option<MeshRequest>& row = find_row_of_key(request_table(), key);
         row.set(request, value);
-        given.push_back(row.name);
+        request.given.push_back(row.name);
     }
-    require_consistent(request_table(), given);
+    require_consistent(request_table(), request.given);
     validate(request.options);
     return request;
 }

@@ -16,6 +16,7 @@ struct MeshRequest {
     CaseOptions options;                    ///< of the library
     std::string preset = automatic_preset;  ///< the preset that they began with
     bool allow_defects = false;             ///< whether a mesh with angles below the bound is returned
+    std::vector<std::string> given{};       ///< names of the options that have values: "first-height"
 };
 
 /// Returns the table of the options: those of option_table<CaseOptions>() that are for users, and those of the module.

@@ -1,4 +1,6 @@
 // Triangulations of points and segments, and their refinement.
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -12,10 +14,14 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/variant.h>
+#include <nanobind/stl/vector.h>
 
 #include <lamina/delaunay.hpp>
+#include <lamina/delaunay_connectivity.hpp>
+#include <lamina/delaunay_queries.hpp>
 #include <lamina/limits.hpp>
 #include <lamina/threads.hpp>
+#include <lamina/triangulation.hpp>
 
 #include "arrays.hpp"
 #include "bindings.hpp"
@@ -91,11 +97,17 @@ nb::tuple adopt_triangles(const PointsArgument& given, const TrianglesArgument& 
                           owning_array<std::uint32_t>(std::move(result.parents)));
 }
 
+/// Returns the size, or, where it is infinite, one that no edge of the domain reaches.
+double size_within(double size, const Box& domain) {
+    return std::isinf(size) && size > 0 ? 4 * std::hypot(domain.width(), domain.height()) : size;
+}
+
 /// One size, or a background of points, triangles and the sizes of the points.
 using SizeArgument = std::variant<double, std::tuple<PointsArgument, TrianglesArgument, ListArgument<double>>>;
 
+/// Returns the field of one size, or of a background. Sizes without a bound are larger than the domain is wide.
 SizeField size_field_of(const SizeArgument& argument, double gradation, const Box& domain) {
-    if (const double* size = std::get_if<double>(&argument)) return SizeField(*size);
+    if (const double* size = std::get_if<double>(&argument)) return SizeField(size_within(*size, domain));
     const auto& [points, triangles, sizes] = std::get<1>(argument);
     SizedMesh background;
     background.points = points_of(points);
@@ -121,9 +133,64 @@ struct RefineArguments {
     bool split_segments;
     unsigned smoothing;
     std::optional<std::size_t> max_triangles;
+    bool conforming;
+    std::optional<double> max_area_ratio;
+    std::optional<ListArgument<double>> areas;  ///< per triangle the largest area; no bound unless positive
+    PointsArgument seeds;                       ///< a point inside each region
+    ListArgument<double> region_sizes;          ///< per region
 };
 
-/// Returns (Steiner points, triangles, segments, parents, numbers of what could not be refined).
+ConstrainedRefineOptions options_of(const RefineArguments& arguments, const Box& domain) {
+    ConstrainedRefineOptions options;
+    options.refine.min_angle_deg = arguments.min_angle;
+    options.refine.smoothing = arguments.smoothing;
+    if (arguments.max_area_ratio) options.refine.max_area_ratio = *arguments.max_area_ratio;
+    options.split_segments = arguments.split_segments;
+    options.conforming = arguments.conforming;
+    const std::vector<Point> seeds = points_of(arguments.seeds);
+    for (std::size_t i = 0; i < seeds.size(); ++i)
+        options.regions.push_back({seeds[i], SizeField(size_within(arguments.region_sizes.data()[i], domain))});
+    return options;
+}
+
+/// Returns the vertices of the boundary of a triangulation, each with the smallest size that bounds the areas round it.
+std::vector<std::pair<Point, double>> sizes_on_boundary(const std::vector<Point>& points,
+                                                        const std::vector<Triangle>& triangles,
+                                                        std::span<const double> areas, double max_area_ratio) {
+    std::vector<double> size(points.size(), HUGE_VAL);
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+        if (areas[t] > 0)
+            for (const VertexId v : triangles[t].v)
+                size[v.index()] = std::min(size[v.index()], size_for_area(areas[t], max_area_ratio));
+    const std::vector<std::uint32_t> twins = half_edges(points.size(), triangles);
+    std::vector<std::pair<Point, double>> found;
+    for (std::size_t h = 0; h < twins.size(); ++h)
+        if (twins[h] == no_half_edge) {
+            const VertexId v = triangles[h / 3].v[h % 3];
+            found.emplace_back(points[v.index()], size[v.index()]);
+        }
+    return found;
+}
+
+/// Returns the smaller one of the size of a field and that of the areas of triangles. Triangles at the boundary may have
+/// the centres of their circles outside, where the vertex of the boundary that is nearest says the size.
+SizeFunction size_function_of(const SizeField& size, const std::vector<Point>& points,
+                              const ConstrainedTriangulation& triangulation, const ListArgument<double>& areas,
+                              double max_area_ratio) {
+    const std::span<const double> bounds{areas.data(), areas.shape(0)};
+    const SizeFunction inside = sizes_of_areas(points, triangulation.triangles, bounds, max_area_ratio);
+    const auto boundary = sizes_on_boundary(points, triangulation.triangles, bounds, max_area_ratio);
+    const auto index = std::make_shared<const TriangulationIndex>(points, triangulation.triangles);
+    return [=](Point p) {
+        if (index->locate(p).place != PointPlace::outside) return std::min(size(p), inside(p));
+        const auto nearest = std::min_element(boundary.begin(), boundary.end(), [p](const auto& a, const auto& b) {
+            return squared_length(a.first - p) < squared_length(b.first - p);
+        });
+        return std::min(size(p), nearest->second);
+    };
+}
+
+/// Returns (Steiner points, triangles, segments, parents, numbers of what could not be refined, regions of triangles).
 nb::tuple refine_triangulation(const PointsArgument& given, const TrianglesArgument& triangles,
                                const SegmentsArgument& segments, const ListArgument<std::uint32_t>& parents,
                                const SizeArgument& size_argument, const RefineArguments& arguments) {
@@ -134,17 +201,19 @@ nb::tuple refine_triangulation(const PointsArgument& given, const TrianglesArgum
     triangulation.parents.assign(parents.data(), parents.data() + parents.shape(0));
     Box domain;
     for (const Point p : points) domain.include(p);
-    ConstrainedRefineOptions options;
-    options.refine.min_angle_deg = arguments.min_angle;
-    options.refine.smoothing = arguments.smoothing;
-    options.split_segments = arguments.split_segments;
+    ConstrainedRefineOptions options = options_of(arguments, domain);
     const WorkLimits limits = with_default_limits({.max_triangles = arguments.max_triangles});
     ConstrainedRefinement result;
     run_unlocked([&] {
         const SizeField size = size_field_of(size_argument, arguments.gradation, domain);
         require_refinement_within(limits, points, triangulation, size, options);
         options.refine.max_points = allowed_points(limits, angle_refinement_cost, options.refine.max_points);
-        result = refine(points, triangulation, size, options);
+        result =
+            arguments.areas
+                ? refine(points, triangulation,
+                         size_function_of(size, points, triangulation, *arguments.areas, options.refine.max_area_ratio),
+                         options)
+                : refine(points, triangulation, size, options);
     });
     nb::dict stats;
     stats["refused"] = result.stats.refused;
@@ -154,7 +223,19 @@ nb::tuple refine_triangulation(const PointsArgument& given, const TrianglesArgum
     return nb::make_tuple(owning_array<double>(std::move(result.steiner_points)),
                           owning_array<std::uint32_t>(std::move(result.triangles)),
                           owning_array<std::uint32_t>(std::move(result.segments)),
-                          owning_array<std::uint32_t>(std::move(result.parents)), stats);
+                          owning_array<std::uint32_t>(std::move(result.parents)), stats,
+                          owning_array<std::uint32_t>(std::move(result.regions)));
+}
+
+/// Returns the first defects of a triangulation, one line each.
+std::vector<std::string> defects_of(const PointsArgument& given, const TrianglesArgument& triangles,
+                                    const SegmentsArgument& segments, bool require_delaunay) {
+    std::vector<std::string> defects;
+    run_unlocked([&] {
+        defects = check_triangulation(points_of(given), cells_of<Triangle, 3>(triangles),
+                                      cells_of<Segment, 2>(segments), {.require_delaunay = require_delaunay});
+    });
+    return defects;
 }
 
 }  // namespace
@@ -171,17 +252,22 @@ void add_triangulations(nb::module_& module) {
         const std::vector<std::size_t> starts(given.data(), given.data() + given.shape(0));
         return owning_array<std::uint32_t>(ring_segments(points, starts));
     });
+    module.def("check_triangulation", &defects_of);
     module.def(
         "refine",
         [](const PointsArgument& points, const TrianglesArgument& triangles, const SegmentsArgument& segments,
            const ListArgument<std::uint32_t>& parents, const SizeArgument& size, double gradation, double min_angle,
-           bool split_segments, unsigned smoothing, std::optional<std::size_t> max_triangles) {
+           bool split_segments, unsigned smoothing, std::optional<std::size_t> max_triangles, bool conforming,
+           std::optional<double> max_area_ratio, const std::optional<ListArgument<double>>& areas,
+           const PointsArgument& seeds, const ListArgument<double>& region_sizes) {
             return refine_triangulation(points, triangles, segments, parents, size,
-                                        {gradation, min_angle, split_segments, smoothing, max_triangles});
+                                        {gradation, min_angle, split_segments, smoothing, max_triangles, conforming,
+                                         max_area_ratio, areas, seeds, region_sizes});
         },
         nb::arg("points"), nb::arg("triangles"), nb::arg("segments"), nb::arg("parents"), nb::arg("size"),
         nb::arg("gradation"), nb::arg("min_angle"), nb::arg("split_segments"), nb::arg("smoothing"),
-        nb::arg("max_triangles").none());
+        nb::arg("max_triangles").none(), nb::arg("conforming"), nb::arg("max_area_ratio").none(),
+        nb::arg("areas").none(), nb::arg("seeds"), nb::arg("region_sizes"));
 }
 
 }  // namespace lamina::python

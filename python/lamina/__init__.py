@@ -9,13 +9,15 @@ docs/python.md is the guide.
 """
 
 from ._batch import BatchResult, batch
+from ._commands import (BOUNDARY_LAYER_STATES, ElementFlow, FamilyMember, Flow, FlowSide, Info, Page, SolutionSizes, case, convert,
+                        family, flow, info, sizes, view)
 from ._dynamic import DynamicTriangulation
 from ._errors import (Error, InputError, IoError, LimitError, MeshError, MeshWarning, OptionError, RunEstimate,
-                      UsageError)
+                      UsageError, WrongTypeError)
 from ._graph import NODE_TYPES
 from ._lamina import version as __version__
 from ._mesh import (Mesh, MeshCheck, QualitySummary, TransitionSummary, WallSummary, WallVertices, check, formats,
-                    mesh_of_arrays, read)
+                    mesh_of_arrays, read, write)
 from ._meshing import mesh
 from ._morph import MorphMap
 from ._remesh import RemeshedMesh, read_metric, remesh
@@ -23,9 +25,11 @@ from ._sections import naca, outlines
 from ._triangulation import (IndexLists, Triangulation, VoronoiDiagram, constrain_triangles, constrained_delaunay,
                              delaunay, merge_points, refine, ring_segments)
 
-__all__ = ["BatchResult", "DynamicTriangulation", "Error", "IndexLists", "InputError", "IoError", "LimitError", "Mesh",
-           "MeshCheck", "MeshError", "MeshWarning", "MorphMap", "NODE_TYPES", "OptionError", "QualitySummary", "RemeshedMesh", "RunEstimate",
-           "TransitionSummary", "Triangulation", "UsageError", "VoronoiDiagram", "WallSummary", "WallVertices",
-           "__version__", "batch", "check", "constrain_triangles", "constrained_delaunay", "delaunay", "formats",
+__all__ = ["BOUNDARY_LAYER_STATES", "BatchResult", "DynamicTriangulation", "ElementFlow", "Error", "FamilyMember",
+           "Flow", "FlowSide", "IndexLists", "Info", "InputError", "IoError", "LimitError", "Mesh", "MeshCheck",
+           "MeshError", "MeshWarning", "MorphMap", "NODE_TYPES", "OptionError", "Page", "QualitySummary",
+           "RemeshedMesh", "RunEstimate", "SolutionSizes", "TransitionSummary", "Triangulation", "UsageError",
+           "VoronoiDiagram", "WallSummary", "WallVertices", "WrongTypeError", "__version__", "batch", "case", "check",
+           "constrain_triangles", "constrained_delaunay", "convert", "delaunay", "family", "flow", "formats", "info",
            "merge_points", "mesh", "mesh_of_arrays", "naca", "outlines", "read", "read_metric", "refine", "remesh",
-           "ring_segments"]
+           "ring_segments", "sizes", "view", "write"]

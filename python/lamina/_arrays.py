@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import fields
 from typing import Any
 
 import numpy as np
 
-from ._errors import InputError
+from ._errors import InputError, WrongTypeError
 
 
 def _equal(one: Any, other: Any) -> bool:
@@ -47,9 +48,31 @@ class Values:
         return f"{type(self).__name__}({', '.join(parts)})"
 
 
-def points_array(points, name: str = "points") -> np.ndarray:
-    """Returns an (n, 2) array of doubles."""
-    array = np.ascontiguousarray(points, dtype=np.float64)
+def coordinates_of(value: Any) -> Any:
+    """Returns what holds the coordinates of an object of another package: shapely's polygons and lines, sections of
+    AeroSandbox and pymead, data frames; and the rows of a generator. Others are returned as they are."""
+    if len(getattr(value, "interiors", ())):
+        raise InputError("a polygon with holes is no section: mesh its exterior, or triangulate its rings")
+    for name in ("exterior", "coords", "coordinates"):  # shapely's rings have coords, polygons an exterior
+        if hasattr(value, name):
+            return coordinates_of(getattr(value, name))
+    if hasattr(value, "get_coords_selig_format"):
+        return value.get_coords_selig_format()
+    if hasattr(value, "to_numpy"):
+        return value.to_numpy()
+    return list(value) if isinstance(value, Iterator) else value
+
+
+def points_array(points: Any, name: str = "points") -> np.ndarray:
+    """Returns an (n, 2) array of doubles. Raises WrongTypeError for what holds no numbers."""
+    given = coordinates_of(points)
+    try:
+        array = np.ascontiguousarray(given, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        shown = f"{type(points).__name__} {points!r:.40}" if np.isscalar(points) else type(points).__name__
+        raise WrongTypeError(f"{name} must be an (n, 2) array of numbers, not {shown}: {error}") from None
+    if np.ndim(given) == 0:
+        raise WrongTypeError(f"{name} must be an (n, 2) array of numbers, not {type(points).__name__} {points!r:.40}")
     if array.size == 0:
         return np.empty((0, 2))
     if array.ndim != 2 or array.shape[1] != 2:
@@ -57,12 +80,14 @@ def points_array(points, name: str = "points") -> np.ndarray:
     return array
 
 
-def index_array(indices, columns: int, name: str) -> np.ndarray:
+def index_array(indices: Any, columns: int, name: str) -> np.ndarray:
     """Returns an (n, columns) array of 32-bit indices, or (n,) for columns = 1."""
-    array = np.asarray(indices)
+    array = np.asarray(list(indices) if isinstance(indices, Iterator) else indices)
     if array.size == 0:
         return np.empty((0, columns) if columns > 1 else (0,), dtype=np.uint32)
     if array.dtype.kind not in "ui":
+        if array.dtype.kind in "OU":
+            raise WrongTypeError(f"{name} must be whole numbers, not {type(indices).__name__} {indices!r:.40}")
         raise InputError(f"{name} must be whole numbers, not {array.dtype}")
     if (columns > 1 and (array.ndim != 2 or array.shape[1] != columns)) or (columns == 1 and array.ndim != 1):
         wanted = f"(n, {columns})" if columns > 1 else "(n,)"

@@ -56,7 +56,7 @@ def _named_inputs(inputs: Mapping[str, Sections] | Iterable[Sections]) -> list[t
     return named
 
 
-def _jobs(inputs, sweep: Mapping[str, Sequence[Any]], write: str | None) -> list[_Job]:
+def _jobs(inputs: Any, sweep: Mapping[str, Sequence[Any]], write: str | None) -> list[_Job]:
     """Returns the jobs in their order. Throws UsageError where two would write the same file."""
     jobs: list[_Job] = []
     paths: set[str] = set()

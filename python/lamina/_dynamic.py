@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from . import _lamina
@@ -16,7 +18,7 @@ class DynamicTriangulation:
     Points keep their numbers; those of removed points are not used again. Calls on several threads must not overlap.
     """
 
-    def __init__(self, points=(), segments=()):
+    def __init__(self, points: Any = (), segments: Any = ()) -> None:
         """Makes the triangulation of points and segments between them."""
         self._data = _lamina.DynamicTriangulation()
         if len(points):
@@ -24,7 +26,7 @@ class DynamicTriangulation:
         for a, b in index_array(segments, 2, "segments").tolist():
             self.insert_segment(a, b)
 
-    def insert(self, points) -> np.ndarray:
+    def insert(self, points: Any) -> np.ndarray:
         """Inserts points, an (n, 2) array, and returns their numbers.
 
         A point that lies where there is one already gets the number of that one. Batches are quicker than single points.
@@ -35,7 +37,7 @@ class DynamicTriangulation:
             numbers[i] = self.find(array[i])
         return numbers
 
-    def remove(self, numbers) -> None:
+    def remove(self, numbers: Any) -> None:
         """Removes points by their numbers. Ends of segments have to lose these before; InputError names one."""
         self._data.remove(index_array(np.atleast_1d(numbers), 1, "numbers"))
 
@@ -50,7 +52,7 @@ class DynamicTriangulation:
         """Removes all edges of segments on the straight way from point a to point b."""
         self._data.remove_segment(a, b)
 
-    def find(self, point) -> int | None:
+    def find(self, point: Any) -> int | None:
         """Returns the number of the point at this place, if there is one."""
         return self._data.find(float(point[0]), float(point[1]))
 

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+import errno
+import os
+import re
+from typing import Any, NamedTuple
 
 
 class RunEstimate(NamedTuple):
@@ -25,11 +28,19 @@ class UsageError(Error, ValueError):
     exit_code = 2
 
 
+class WrongTypeError(UsageError, TypeError):
+    """An argument of a type that lamina cannot use; the message says what was given."""
+
+
 class OptionError(UsageError):
     """An option whose value is out of range, of the wrong kind, or does not go with the others."""
 
     option: str = ""  #: name of the option
     reason: str = ""  #: what is wrong with its value
+
+
+class OptionTypeError(OptionError, WrongTypeError):
+    """An option with a value of a type that none has."""
 
 
 class LimitError(OptionError):
@@ -59,11 +70,52 @@ class MeshError(Error, RuntimeError):
 
 
 class IoError(Error, OSError):
-    """A file that could not be read or written."""
+    """A file that could not be read or written. `errno`, `strerror` and `filename` are those of the system where it says
+    why, and then the error is also a FileNotFoundError, a PermissionError, and so on."""
 
     exit_code = 5
     file: str = ""  #: path of the file
     reason: str = ""  #: why it could not be read or written
+
+    def __str__(self) -> str:
+        return f"{self.file}: {self.reason}" if self.file else super().__str__()
+
+
+class MissingFileError(IoError, FileNotFoundError):
+    """A file or folder that is not there."""
+
+
+class AccessError(IoError, PermissionError):
+    """A file that may not be read or written."""
+
+
+class FolderError(IoError, IsADirectoryError):
+    """A folder where a file is needed."""
+
+
+class NoFolderError(IoError, NotADirectoryError):
+    """A file where a folder is needed."""
+
+
+_OF_ERRNO = {errno.ENOENT: MissingFileError, errno.EACCES: AccessError, errno.EPERM: AccessError,
+             errno.EISDIR: FolderError, errno.ENOTDIR: NoFolderError}
+
+
+def io_error(message: str, file: str, reason: str) -> IoError:
+    """Returns the error of a file with the number of the system whose text the reason ends with."""
+    text = reason.lower()
+    numbers = [number for number in errno.errorcode if text.endswith(os.strerror(number).lower())]
+    if reason.endswith("does not exist"):
+        numbers = [errno.ENOENT]
+    number = max(numbers, key=lambda n: len(os.strerror(n)), default=None)
+    error = IoError(message) if number is None else _OF_ERRNO.get(number, IoError)(number, os.strerror(number), file)
+    error.file, error.reason = file, reason
+    return error
+
+
+def in_python(text: str) -> str:
+    """Returns a message with the names of options as Python has them: "layer_topology", not "--layer-topology"."""
+    return re.sub(r"(?:\boption )?(?<![\w-])--([a-z][a-z0-9]*(?:-[a-z0-9]+)*)", lambda m: m[1].replace("-", "_"), text)
 
 
 class MeshWarning(UserWarning):
@@ -81,7 +133,8 @@ class MeshWarning(UserWarning):
     message: str = ""  #: one sentence
 
     @classmethod
-    def _from(cls, data: dict) -> MeshWarning:
-        warning = cls(data["message"])
-        warning.__dict__.update(data)
+    def _from(cls, data: dict[str, Any]) -> MeshWarning:
+        message = in_python(data["message"])
+        warning = cls(message)
+        warning.__dict__.update(data, message=message)
         return warning

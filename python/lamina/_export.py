@@ -62,13 +62,13 @@ def to_pyvista(mesh: Mesh) -> Any:
 
 
 def _edge_lengths(mesh: Mesh) -> np.ndarray:
-    return np.hypot(*(mesh.points[mesh.edges[:, 1]] - mesh.points[mesh.edges[:, 0]]).T)
+    return np.asarray(np.hypot(*(mesh.points[mesh.edges[:, 1]] - mesh.points[mesh.edges[:, 0]]).T))
 
 
 def to_pyg(mesh: Mesh) -> Any:
     """Mesh.to_pyg()."""
-    import torch
-    from torch_geometric.data import Data
+    import torch  # type: ignore[import-not-found, unused-ignore]
+    from torch_geometric.data import Data  # type: ignore[import-not-found, unused-ignore]
 
     index = mesh.edge_index(both_directions=True)
     step = mesh.points[index[1]] - mesh.points[index[0]]
@@ -81,7 +81,7 @@ def to_pyg(mesh: Mesh) -> Any:
 
 def to_networkx(mesh: Mesh) -> Any:
     """Mesh.to_networkx()."""
-    import networkx
+    import networkx  # type: ignore[import-untyped, unused-ignore]
 
     graph = networkx.Graph()
     graph.add_nodes_from(range(len(mesh.points)))

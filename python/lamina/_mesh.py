@@ -137,6 +137,11 @@ class Mesh:
     hold them.
     """
 
+    _data: _lamina.Mesh
+    _warnings: tuple[MeshWarning, ...]
+    _facts: dict[str, Any]
+    _columns: tuple[np.ndarray, np.ndarray]
+
     def __init__(self) -> None:
         raise TypeError("meshes come from lamina.mesh(), lamina.read() and lamina.mesh_of_arrays()")
 
@@ -365,7 +370,8 @@ class Mesh:
         """Writes the table of `wall` as CSV, as `lamina mesh --wall-data` does."""
         self._data.write_wall_data(os.fspath(path))
 
-    def plot(self, ax=None, *, window: tuple[float, float, float, float] | None = None, color: str = "none", **style):
+    def plot(self, ax: Any = None, *, window: tuple[float, float, float, float] | None = None, color: str = "none",
+             **style: Any) -> Any:
         """Draws the mesh with matplotlib and returns the axes.
 
         `window` is (x0, x1, y0, y1) in units of the input, and else the bodies and some space round them. `color` says
@@ -375,6 +381,12 @@ class Mesh:
         from ._picture import draw_mesh
 
         return draw_mesh(self, ax, window, color, style)
+
+    def view(self, *, title: str = "mesh", height: int = 600) -> Any:
+        """Returns a page to zoom into the mesh, which a notebook shows in a frame: `lamina.view(mesh)`."""
+        from ._commands import view
+
+        return view(self, title=title, height=height)
 
     def to_meshio(self) -> Any:
         """Returns the mesh as a `meshio.Mesh`: cells, one block of lines and one set for each marker; data `layer` and
@@ -453,8 +465,9 @@ class Mesh:
         self._set(_data_of_arrays(**state["arrays"]), state["warnings"], state["facts"], state["columns"])
 
 
-def _data_of_arrays(points, triangles, quads, markers, region, piece, layer, constraints) -> _lamina.Mesh:
-    def per_cell(values, dtype, name):
+def _data_of_arrays(points: Any, triangles: Any, quads: Any, markers: Any, region: Any, piece: Any, layer: Any,
+                    constraints: Any) -> _lamina.Mesh:
+    def per_cell(values: Any, dtype: type[np.generic], name: str) -> np.ndarray:
         return np.ascontiguousarray(index_array(values, 1, name), dtype=dtype)
 
     return _lamina.mesh_of_arrays(
@@ -465,7 +478,7 @@ def _data_of_arrays(points, triangles, quads, markers, region, piece, layer, con
         index_array(constraints, 2, "constraints"))
 
 
-def mesh_of_arrays(points, triangles, markers: Mapping[str, Any], *, quads=(),
+def mesh_of_arrays(points: Any, triangles: Any, markers: Mapping[str, Any], *, quads: Any = (),
                    marker_kinds: Mapping[str, str] | None = None) -> Mesh:
     """Returns a mesh of arrays, such as one that another mesher made.
 
@@ -484,6 +497,11 @@ def read(path: str | os.PathLike[str], *, format: str = "") -> Mesh:
     Raises IoError where the file cannot be read, InputError where it is malformed, UsageError for unknown formats.
     """
     return Mesh._from(_lamina.read(os.fspath(path), format))
+
+
+def write(mesh: Mesh, path: str | os.PathLike[str], **options: Any) -> None:
+    """Writes a mesh to a file: `mesh.write(path, **options)`."""
+    mesh.write(path, **options)
 
 
 def check(mesh: Mesh, *, min_angle: float | None = None, first_height: float | None = None) -> MeshCheck:

@@ -7,10 +7,14 @@ import inspect
 import os
 from collections.abc import Iterable, Mapping
 from numbers import Integral, Real
-from typing import Any
+from typing import Any, TypeVar
 
 from . import _lamina
-from ._errors import OptionError
+from ._errors import OptionTypeError
+
+
+#: A function that takes **options.
+Function = TypeVar("Function")
 
 
 @functools.cache
@@ -20,7 +24,7 @@ def option_rows() -> dict[str, dict[str, Any]]:
 
 
 def _is_switch(row: Mapping[str, Any]) -> bool:
-    return row["metavar"] == "no|yes"
+    return bool(row["metavar"] == "no|yes")
 
 
 def _is_choice(row: Mapping[str, Any]) -> bool:
@@ -43,7 +47,9 @@ def option_value(key: str, value: Any) -> bool | int | float | str | list[str]:
         entries = [option_value("", entry) for entry in value]
         texts = [entry if isinstance(entry, str) else repr(entry) for entry in entries]
         return ",".join(texts) if row["kind"] == "word" else texts
-    raise OptionError(f"{key}: {type(value).__name__} is no value of an option")
+    error = OptionTypeError(f"{key or 'a list'}: {type(value).__name__} {value!r:.40} is no value of an option")
+    error.option = key
+    raise error
 
 
 def option_values(options: Mapping[str, Any]) -> list[tuple[str, Any]]:
@@ -88,12 +94,13 @@ def options_text() -> str:
 _GROUPS = ["Files", "Geometry", "Flow", "Layer", "Outer region", "Run"]
 
 
-def with_options(function):
+def with_options(function: Function) -> Function:
     """Gives a function that takes **options the signature and the description of all of them, for help()."""
-    signature = inspect.signature(function)
+    described: Any = function
+    signature = inspect.signature(described)
     kept = [p for p in signature.parameters.values() if p.kind is not inspect.Parameter.VAR_KEYWORD]
     options = [inspect.Parameter(key, inspect.Parameter.KEYWORD_ONLY, default=None,
                                  annotation=f"{type_of(row)} | None") for key, row in option_rows().items()]
-    function.__signature__ = signature.replace(parameters=kept + options)
-    function.__doc__ = f"{inspect.cleandoc(function.__doc__)}\n\nOptions\n-------\n{options_text()}\n"
+    described.__signature__ = signature.replace(parameters=kept + options)
+    described.__doc__ = f"{inspect.cleandoc(described.__doc__)}\n\nOptions\n-------\n{options_text()}\n"
     return function

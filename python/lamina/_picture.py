@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import base64
 import io
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+
+if TYPE_CHECKING:
+    from ._mesh import Mesh
+    from ._triangulation import Triangulation
 
 #: Notebooks show no more cells than this; the walls alone stand for a mesh with more of them in view.
 _MAX_CELLS_IN_NOTEBOOK = 200_000
 
 
-def _axes(ax):
+def _axes(ax: Any) -> Any:
     if ax is not None:
         return ax
     import matplotlib.pyplot as plt
@@ -26,13 +30,13 @@ def _window_round(points: np.ndarray) -> tuple[float, float, float, float]:
     return lower[0] - margin, upper[0] + margin, lower[1] - margin, upper[1] + margin
 
 
-def _bodies_window(mesh) -> tuple[float, float, float, float]:
+def _bodies_window(mesh: Mesh) -> tuple[float, float, float, float]:
     walls = [edges for name, edges in mesh.markers.items() if mesh.marker_kinds[name] == "wall"]
     vertices = np.unique(np.concatenate(walls)) if walls else slice(None)
     return _window_round(mesh.points[vertices])
 
 
-def _in_window(points: np.ndarray, cells: np.ndarray, window) -> np.ndarray:
+def _in_window(points: np.ndarray, cells: np.ndarray, window: Any) -> np.ndarray:
     """Returns the numbers of the cells whose boxes meet the window."""
     x0, x1, y0, y1 = window
     x, y = points[:, 0][cells], points[:, 1][cells]
@@ -40,22 +44,22 @@ def _in_window(points: np.ndarray, cells: np.ndarray, window) -> np.ndarray:
                           & (y.min(axis=1) <= y1)) if len(cells) else np.empty(0, dtype=int)
 
 
-def _cell_values(mesh, color: str, kind: str, chosen: np.ndarray) -> np.ndarray:
+def _cell_values(mesh: Mesh, color: str, kind: str, chosen: np.ndarray) -> np.ndarray:
     """Returns what the colours of these triangles or quads show."""
     cells = (mesh.triangles if kind == "triangles" else mesh.quads)[chosen]
     corners = mesh.points[cells]
     after, before = np.roll(corners, -1, axis=1) - corners, np.roll(corners, 1, axis=1) - corners
     cross = after[..., 0] * before[..., 1] - after[..., 1] * before[..., 0]
     if color == "quality":
-        return np.degrees(np.arctan2(cross, (after * before).sum(axis=2))).min(axis=1)
+        return np.asarray(np.degrees(np.arctan2(cross, (after * before).sum(axis=2))).min(axis=1))
     if color == "size":
         shoelace = corners[:, :, 0] * np.roll(corners[:, :, 1], -1, 1) - corners[:, :, 1] * np.roll(
             corners[:, :, 0], -1, 1)
-        return np.log10(np.sqrt(0.5 * np.abs(shoelace.sum(axis=1))))
+        return np.asarray(np.log10(np.sqrt(0.5 * np.abs(shoelace.sum(axis=1)))))
     values = mesh.piece if color == "piece" else mesh.layer
     if len(values) == 0:
         return np.zeros(len(chosen))
-    return values[chosen + (0 if kind == "triangles" else len(mesh.triangles))].astype(float)
+    return np.asarray(values[chosen + (0 if kind == "triangles" else len(mesh.triangles))], dtype=float)
 
 
 def _edges_of(cells: np.ndarray) -> np.ndarray:
@@ -63,13 +67,13 @@ def _edges_of(cells: np.ndarray) -> np.ndarray:
     return np.unique(np.sort(edges, axis=1), axis=0)
 
 
-def _add_lines(ax, points, edges, style: dict[str, Any]) -> None:
+def _add_lines(ax: Any, points: np.ndarray, edges: np.ndarray, style: dict[str, Any]) -> None:
     from matplotlib.collections import LineCollection
 
     ax.add_collection(LineCollection(points[edges], **style), autolim=False)
 
 
-def draw_mesh(mesh, ax, window, color: str, style: dict[str, Any]):
+def draw_mesh(mesh: Mesh, ax: Any, window: Any, color: str, style: dict[str, Any]) -> Any:
     """Draws a mesh: Mesh.plot()."""
     from matplotlib.collections import PolyCollection
 
@@ -94,19 +98,19 @@ def draw_mesh(mesh, ax, window, color: str, style: dict[str, Any]):
     return ax
 
 
-def _draw_walls(mesh, ax) -> None:
+def _draw_walls(mesh: Mesh, ax: Any) -> None:
     for name, edges in mesh.markers.items():
         if mesh.marker_kinds[name] == "wall":
             _add_lines(ax, mesh.points, edges, {"colors": "red", "linewidths": 1.0})
 
 
-def _set_window(ax, window) -> None:
+def _set_window(ax: Any, window: Any) -> None:
     ax.set_xlim(window[0], window[1])
     ax.set_ylim(window[2], window[3])
     ax.set_aspect("equal")
 
 
-def draw_triangles(triangulation, ax, style: dict[str, Any]):
+def draw_triangles(triangulation: Triangulation, ax: Any, style: dict[str, Any]) -> Any:
     """Draws a triangulation: Triangulation.plot()."""
     ax = _axes(ax)
     _add_lines(ax, triangulation.points, _edges_of(triangulation.triangles),
@@ -116,7 +120,7 @@ def draw_triangles(triangulation, ax, style: dict[str, Any]):
     return ax
 
 
-def picture_html(mesh) -> str:
+def picture_html(mesh: Mesh) -> str:
     """Returns the picture of a mesh as HTML; empty where matplotlib is not installed."""
     try:
         from matplotlib.backends.backend_agg import FigureCanvasAgg

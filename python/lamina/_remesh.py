@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -32,7 +33,7 @@ def read_metric(path: str | os.PathLike[str]) -> np.ndarray:
     return _lamina.read_metric(os.fspath(path))
 
 
-def remesh(mesh: Mesh, metric, *, divide_borders: bool = False, vertices: float | None = None,
+def remesh(mesh: Mesh, metric: Any, *, divide_borders: bool = False, vertices: float | None = None,
            gradation: float | None = None, max_ratio: float | None = None) -> RemeshedMesh:
     """Replaces the triangles beyond the layer by those that a metric asks for, as `lamina remesh` does.
 
@@ -50,7 +51,7 @@ def remesh(mesh: Mesh, metric, *, divide_borders: bool = False, vertices: float 
     return RemeshedMesh(Mesh._from(data), tensors, triangles, unit_edges, mean_quality)
 
 
-def _tensors(metric) -> np.ndarray:
+def _tensors(metric: Any) -> np.ndarray:
     array = np.asarray(metric, dtype=np.float64)
     if array.ndim == 1:
         # As files of sizes are read; a power would be that of the C library.

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, Union
 
 import numpy as np
 
 from . import _lamina
-from ._arrays import points_array
-from ._errors import UsageError
+from ._arrays import coordinates_of, points_array
+from ._errors import WrongTypeError
 
 #: One section: a file, a name such as "naca:0012", or an (n, 2) array of coordinates.
 Section = Union[str, "os.PathLike[str]", np.ndarray, Sequence[Sequence[float]]]
@@ -23,7 +23,7 @@ def _is_points(value: Any) -> bool:
     if isinstance(value, np.ndarray):
         return True
     return (isinstance(value, Sequence) and not isinstance(value, str) and len(value) > 0
-            and all(isinstance(row, Sequence) and not isinstance(row, str) and len(row) == 2
+            and all(not isinstance(row, (str, Mapping)) and np.shape(row) == (2,)
                     and all(np.isscalar(x) and not isinstance(x, str) for x in row) for row in value))
 
 
@@ -33,16 +33,21 @@ def _section(value: Any, name: str) -> str | tuple[str, np.ndarray]:
     return name, points_array(value, name)
 
 
-def section_list(sections: Sections, source: str = "array") -> tuple[list[Any], list[str]]:
+def section_list(sections: Any, source: str = "array") -> tuple[list[Any], list[str]]:
     """Returns the sections as the C++ part takes them, and the names of a dictionary. Errors call arrays `source`."""
     if isinstance(sections, Mapping):
         return [_section(value, str(name)) for name, value in sections.items()], [str(name) for name in sections]
-    if isinstance(sections, (str, os.PathLike)) or _is_points(sections):
+    if hasattr(sections, "geoms"):  # several polygons of shapely
+        return [_section(polygon, source) for polygon in sections.geoms], []
+    if isinstance(sections, (str, os.PathLike)):
         return [_section(sections, source)], []
-    if not isinstance(sections, Sequence):
-        raise UsageError(f"sections must be a path, a name, an array, or a list or dictionary of these, not "
-                         f"{type(sections).__name__}")
-    return [_section(value, source) for value in sections], []
+    coordinates = coordinates_of(sections)
+    if coordinates is not sections and not isinstance(sections, Iterator) or _is_points(coordinates):
+        return [_section(coordinates, source)], []
+    if not isinstance(coordinates, Sequence):
+        raise WrongTypeError(f"sections must be a path, a name, an array, or a list or dictionary of these, not "
+                             f"{type(sections).__name__} {sections!r:.40}")
+    return [_section(value, source) for value in coordinates], []
 
 
 def _closed(points: np.ndarray) -> np.ndarray:

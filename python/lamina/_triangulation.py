@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from types import MappingProxyType
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from . import _lamina
 from ._arrays import Values, immutable, index_array, points_array
@@ -16,7 +18,7 @@ from ._errors import InputError, OptionError
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class IndexLists(Values, Sequence):
+class IndexLists(Values, Sequence[np.ndarray]):
     """Lists of different lengths in one array: list i is `items[starts[i]:starts[i + 1]]`."""
 
     starts: np.ndarray  #: (n + 1,) where the lists begin, and the end of the last one
@@ -25,7 +27,7 @@ class IndexLists(Values, Sequence):
     def __len__(self) -> int:
         return len(self.starts) - 1
 
-    def __getitem__(self, i):
+    def __getitem__(self, i: Any) -> Any:
         if isinstance(i, slice):
             return [self[k] for k in range(*i.indices(len(self)))]
         if not -len(self) <= i < len(self):
@@ -60,9 +62,11 @@ class Triangulation:
     stats: Mapping[str, int] = field(default_factory=dict)  #: of a refinement: what could not be refined as asked
     #: (given_points,) for each point that was handed in the one that stands for it; empty unless points were merged
     merged_into: np.ndarray = field(default_factory=lambda: np.empty(0, dtype=np.uint32))
+    #: (m,) for each triangle the index of its region in refine(), -1 elsewhere; empty where no regions were given
+    regions: np.ndarray = field(default_factory=lambda: np.empty(0, dtype=np.int32))
 
     def __post_init__(self) -> None:
-        for name in ("points", "triangles", "segments", "parents", "merged_into"):
+        for name in ("points", "triangles", "segments", "parents", "merged_into", "regions"):
             object.__setattr__(self, name, immutable(getattr(self, name)))
         object.__setattr__(self, "stats", MappingProxyType(dict(self.stats)))
 
@@ -94,7 +98,7 @@ class Triangulation:
     def __reduce__(self) -> tuple[Any, ...]:
         # What queries have prepared is left out, and made anew where it is asked for.
         return Triangulation, (self.points, self.triangles, self.segments, self.parents, self.given_points,
-                               dict(self.stats), self.merged_into)
+                               dict(self.stats), self.merged_into, self.regions)
 
     @cached_property
     def half_edges(self) -> np.ndarray:
@@ -127,30 +131,56 @@ class Triangulation:
     def _index(self) -> _lamina.TriangulationIndex:
         return _lamina.TriangulationIndex(self.points, self.triangles)
 
-    def locate(self, points) -> np.ndarray:
-        """Returns for each of (n, 2) points the triangle that holds it, -1 outside. Exact; on edges and vertices the
-        triangle with the smallest index. The first call prepares the triangulation for this one and those below."""
-        return self._index.locate(points_array(points))[0]
+    def check(self, *, require_delaunay: bool = True) -> list[str]:
+        """Returns the first 20 defects, one line each; none: the triangulation is valid. Exact. Defects are clockwise
+        and flat triangles, overlaps, segments that are no edges, and, with `require_delaunay`, edges that are not
+        Delaunay."""
+        return _lamina.check_triangulation(self.points, self.triangles, self.segments, require_delaunay)
 
-    def nearest(self, points) -> np.ndarray:
-        """Returns for each of (n, 2) points the index of the nearest vertex. Exact. For Delaunay triangulations of
-        points; UsageError for others."""
-        return self._index.nearest(points_array(points))
+    def quadratic_nodes(self) -> tuple[np.ndarray, np.ndarray]:
+        """Returns points with the middles of all edges behind them, and (m, 6) nodes of the triangles: the corners,
+        then the middles of the edges opposite of them."""
+        triangles = self.triangles.astype(np.int64)
+        ends = np.sort(np.stack([triangles[:, [1, 2]], triangles[:, [2, 0]], triangles[:, [0, 1]]], axis=1), axis=2)
+        edges, of_side = np.unique(ends.reshape(-1, 2), axis=0, return_inverse=True)
+        middles = 0.5 * (self.points[edges[:, 0]] + self.points[edges[:, 1]])
+        return (np.concatenate([self.points, middles]),
+                np.concatenate([triangles, len(self.points) + of_side.reshape(-1, 3)], axis=1))
 
-    def interpolate(self, values, points, *, method: str = "linear") -> np.ndarray:
-        """Returns at each of (n, 2) points the value between `values`, one for each point of the triangulation; NaN
-        outside. method: "linear" in each triangle; or "sibson", by natural neighbours, which is smooth but at the
-        vertices and needs the Delaunay triangulation of points (UsageError for others)."""
+    def locate(self, points: ArrayLike) -> Any:
+        """Returns for each of (n, 2) points the triangle that holds it, -1 outside; for one point an int. Exact; on edges
+        and vertices the triangle with the smallest index. The first call prepares the triangulation for this one and
+        those below."""
+        return _for_each(lambda queries: self._index.locate(queries)[0], points)
+
+    def nearest(self, points: ArrayLike) -> Any:
+        """Returns for each of (n, 2) points the index of the nearest vertex; for one point an int. Exact. For Delaunay
+        triangulations of points; UsageError for others."""
+        return _for_each(self._index.nearest, points)
+
+    def interpolate(self, values: ArrayLike, points: ArrayLike, *, method: str = "linear") -> Any:
+        """Returns at each of (n, 2) points the value between `values`, one number or a vector for each point of the
+        triangulation; NaN outside. For one point it returns its value. method: "linear" in each triangle; or "sibson", by
+        natural neighbours, which is smooth but at the vertices and needs the Delaunay triangulation of points (UsageError
+        for others)."""
         if method not in ("linear", "sibson"):
             raise OptionError(f"method: '{method}' is neither 'linear' nor 'sibson'")
-        numbers = np.ascontiguousarray(values, dtype=np.float64)
-        if numbers.shape != (len(self.points),):
-            raise InputError(f"values must have the shape ({len(self.points)},), one for each point, not "
+        numbers = np.asarray(values, dtype=np.float64)
+        if numbers.ndim == 0 or len(numbers) != len(self.points):
+            raise InputError(f"values must have the shape ({len(self.points)}, ...), one for each point, not "
                              f"{numbers.shape}")
         ask = self._index.linear if method == "linear" else self._index.sibson
-        return ask(numbers, points_array(points))
 
-    def natural_neighbours(self, point) -> tuple[np.ndarray, np.ndarray]:
+        def between(queries: np.ndarray) -> np.ndarray:
+            if numbers.ndim == 1:
+                return ask(np.ascontiguousarray(numbers), queries)
+            columns = numbers.reshape(len(numbers), -1).T
+            found = [ask(np.ascontiguousarray(column), queries) for column in columns]
+            return np.stack(found, axis=1).reshape(len(queries), *numbers.shape[1:])
+
+        return _for_each(between, points)
+
+    def natural_neighbours(self, point: Sequence[float]) -> tuple[np.ndarray, np.ndarray]:
         """Returns the indices of the natural neighbours of a point, counter-clockwise, and Sibson's weights; both empty
         outside."""
         return self._index.natural_neighbours(float(point[0]), float(point[1]))
@@ -160,20 +190,29 @@ class Triangulation:
         corners, (starts, items), rays, directions = _lamina.voronoi_diagram(self.points, self.triangles)
         return VoronoiDiagram(corners, IndexLists(starts, items), rays, directions)
 
-    def voronoi_cells(self, polygon) -> list[np.ndarray]:
+    def voronoi_cells(self, polygon: ArrayLike) -> list[np.ndarray]:
         """Returns for each point the part of its Voronoi cell in a convex, counter-clockwise polygon: (k, 2) corners,
         none where it has no part. For Delaunay triangulations of points."""
         starts, corners = _lamina.clipped_voronoi_cells(self.points, self.triangles, points_array(polygon, "polygon"))
         return np.split(corners, starts[1:-1]) if len(starts) > 1 else []
 
-    def plot(self, ax=None, **style):
+    def plot(self, ax: Any = None, **style: Any) -> Any:
         """Draws the triangles with matplotlib and returns the axes."""
         from ._picture import draw_triangles
 
         return draw_triangles(self, ax, style)
 
 
-def delaunay(points) -> Triangulation:
+def _for_each(ask: Callable[[np.ndarray], np.ndarray], points: ArrayLike) -> Any:
+    """Returns the answers for (n, 2) points, or the one for one point."""
+    array = np.asarray(points, dtype=np.float64)
+    if array.shape != (2,):
+        return ask(points_array(points))
+    answer = ask(np.ascontiguousarray(array[None, :]))[0]
+    return answer if answer.ndim else answer.item()
+
+
+def delaunay(points: ArrayLike) -> Triangulation:
     """Returns the Delaunay triangulation of distinct points.
 
     points: (n, 2) coordinates, zero or of a magnitude between 1e-60 and 1e60. All decisions are exact, and one rule
@@ -184,8 +223,8 @@ def delaunay(points) -> Triangulation:
     return Triangulation(array, _lamina.delaunay(array), index_array((), 2, ""), index_array((), 1, ""), len(array))
 
 
-def constrained_delaunay(points, segments, *, keep: str = "convex_hull", crossings: str = "refuse",
-                         holes=(), merge_distance: float | None = None, drop_flat: float = 0) -> Triangulation:
+def constrained_delaunay(points: ArrayLike, segments: ArrayLike, *, keep: str = "convex_hull",
+                         crossings: str = "refuse", holes: ArrayLike = (), merge_distance: float | None = None, drop_flat: float = 0) -> Triangulation:
     """Returns the constrained Delaunay triangulation of points and segments.
 
     segments: (k, 2) indices into `points`; they may overlap, repeat and run through points. keep: which triangles stay:
@@ -204,7 +243,8 @@ def constrained_delaunay(points, segments, *, keep: str = "convex_hull", crossin
     return Triangulation(_joined(array, steiner), triangles, edges, parents, len(array), merged_into=merged_into)
 
 
-def constrain_triangles(points, triangles, segments=(), merged_into=()) -> Triangulation:
+def constrain_triangles(points: ArrayLike, triangles: ArrayLike, segments: ArrayLike = (),
+                        merged_into: ArrayLike = ()) -> Triangulation:
     """Returns a triangulation from elsewhere as one that refine() takes: edges are flipped until it is constrained
     Delaunay.
 
@@ -218,13 +258,13 @@ def constrain_triangles(points, triangles, segments=(), merged_into=()) -> Trian
     return Triangulation(array, result, edges, parents, len(array), merged_into=merged)
 
 
-def merge_points(points, distance: float) -> np.ndarray:
+def merge_points(points: ArrayLike, distance: float) -> np.ndarray:
     """Returns for each point the index of the one that stands for it: the first one that stands for itself and is at
     most `distance` away."""
     return _lamina.merge_points(points_array(points), float(distance))
 
 
-def ring_segments(rings) -> tuple[np.ndarray, np.ndarray]:
+def ring_segments(rings: Iterable[ArrayLike]) -> tuple[np.ndarray, np.ndarray]:
     """Returns points and segments of closed rings, each an (n, 2) array that may repeat its first point at its end.
 
     Rings that repeat points need `merge_distance` in constrained_delaunay().
@@ -235,28 +275,78 @@ def ring_segments(rings) -> tuple[np.ndarray, np.ndarray]:
     return points, _lamina.ring_segments(len(points), index_array(starts[:-1], 1, "starts"))
 
 
-def refine(triangulation: Triangulation, size, *, gradation: float = 0.1, min_angle: float | None = None,
-           split_segments: bool = True, smoothing: int = 2, max_triangles: int | None = None) -> Triangulation:
+#: Where areas are bounded and nothing else is said, triangles have at most this much more area than the equilateral one
+#: of the mean edge, so that their number is least.
+_AREA_RATIO = 1.1
+
+
+def _size_for_area(area: float, max_area_ratio: float) -> float:
+    """Returns the size whose triangles have at most this area; unbounded unless it is positive."""
+    return math.sqrt(area / (max_area_ratio * 0.25 * math.sqrt(3))) if area > 0 else math.inf
+
+
+def refine(triangulation: Triangulation, size: Any = math.inf, *, gradation: float = 0.1,
+           min_angle: float | None = None, split_segments: bool = True, smoothing: int = 2,
+           max_triangles: int | None = None, max_area: ArrayLike | None = None,
+           max_area_ratio: float | None = None, regions: Sequence[tuple[float, float, float]] = (),
+           conforming: bool = False) -> Triangulation:
     """Refines a triangulation to sizes and angles. Segments and the boundary are split where that needs it.
 
     size: the edge length that is wanted, in units of the input. A number; an array with one size for each point of the
     triangulation; a background (points, triangles, sizes) whose sizes are linear in its triangles; or a function of an
     (n, 2) array of points that returns n sizes. A function is sampled on squares that are divided until they are four
-    edges wide, which is slow: a sample costs more than a triangle.
+    edges wide, which is slow: a sample costs more than a triangle. Infinite: angles and areas alone count.
     gradation: growth of the edge length per unit of distance from places that ask for less.
     min_angle: smallest angle of a triangle, in degrees, up to 33; None: 20.7, up to which the end is proved. Corners of
     the input below 60 degrees may hold smaller ones (`stats["exempt"]`).
     split_segments: if False, triangles beside long segments may stay beyond the bounds.
     smoothing: how often all vertices move to the means of their neighbours.
     max_triangles: a refinement that needs more, by estimate, raises LimitError before the work.
+    max_area: largest area of a triangle: a number, or one for each triangle of the triangulation, of which those that are
+    not positive are no bound.
+    max_area_ratio: largest area over that of the equilateral triangle of the wanted edge; None: 1.1 where areas have
+    bounds, else 1.7.
+    regions: (x, y, area) for each: a point in a region that segments bound, and its largest area, which replaces `size`
+    there; 0: no bound. `regions` of the result says which triangle lies in which.
+    conforming: segments are split until all triangles are Delaunay, and not only constrained Delaunay.
     """
     t = triangulation
-    size_argument = _size_argument(t, size, gradation)
+    bounds_areas = max_area is not None or any(area > 0 for _, _, area in regions)
+    ratio = max_area_ratio if max_area_ratio is not None else _AREA_RATIO if bounds_areas else None
+    areas = None if max_area is None or np.ndim(max_area) == 0 else _areas_array(max_area, len(t.triangles))
+    if max_area is not None and areas is None:
+        if not float(max_area) > 0:  # type: ignore[arg-type]
+            raise OptionError(f"max_area: must be positive, not {max_area}")
+        size = _smaller_size(size, _size_for_area(float(max_area), ratio or _AREA_RATIO))  # type: ignore[arg-type]
+    seeds = points_array([(x, y) for x, y, _ in regions], "regions")
+    sizes = np.array([_size_for_area(area, ratio or _AREA_RATIO) for _, _, area in regions], dtype=np.float64)
     bound = _lamina.proved_min_angle if min_angle is None else min_angle
-    steiner, triangles, edges, parents, stats = _lamina.refine(
-        t.points, t.triangles, t.segments, t.parents, size_argument, float(gradation), float(bound), split_segments,
-        smoothing, max_triangles)
-    return Triangulation(_joined(t.points, steiner), triangles, edges, parents, t.given_points, stats, t.merged_into)
+    steiner, triangles, edges, parents, stats, of_region = _lamina.refine(
+        t.points, t.triangles, t.segments, t.parents, _size_argument(t, size, gradation), float(gradation),
+        float(bound), split_segments, smoothing, max_triangles, conforming, ratio, areas, seeds, sizes)
+    if isinstance(size, (int, float)) and math.isinf(size) and not bounds_areas:
+        # The sizes that stand for no bound are finite, and flat triangles have circles that are larger.
+        stats["oversized"] = 0
+        stats["refused"] *= stats["below_bound"] != stats["exempt"]
+    return Triangulation(_joined(t.points, steiner), triangles, edges, parents, t.given_points, stats, t.merged_into,
+                         of_region.view(np.int32) if len(regions) else np.empty(0, dtype=np.int32))
+
+
+def _smaller_size(size: Any, other: float) -> Any:
+    """Returns the size argument of refine() that asks for no more than another size."""
+    if callable(size):
+        return lambda points: np.minimum(size(points), other)
+    if isinstance(size, tuple):
+        return size[0], size[1], np.minimum(size[2], other)
+    return np.minimum(size, other)
+
+
+def _areas_array(areas: ArrayLike, count: int) -> np.ndarray:
+    array = np.ascontiguousarray(areas, dtype=np.float64)
+    if array.shape != (count,):
+        raise InputError(f"max_area must be a number or have the shape ({count},), one for each triangle, not "
+                         f"{array.shape}")
+    return array
 
 
 def _joined(points: np.ndarray, steiner: np.ndarray) -> np.ndarray:
@@ -272,7 +362,7 @@ def _sizes_array(sizes: Any, count: int) -> np.ndarray:
     return array
 
 
-def _size_argument(t: Triangulation, size: Any, gradation: float):
+def _size_argument(t: Triangulation, size: Any, gradation: float) -> Any:
     if callable(size):
         return _sampled(size, t.points)
     if isinstance(size, tuple):
@@ -289,7 +379,8 @@ _EDGES_PER_SQUARE = 4.0
 _MAX_SAMPLES = 20_000_000
 
 
-def _sampled(function: Callable[[np.ndarray], Any], points: np.ndarray):
+def _sampled(function: Callable[[np.ndarray], Any],
+             points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Returns a background that samples the function on a quadtree over the box round the points."""
 
     def sizes_at(places: np.ndarray) -> np.ndarray:

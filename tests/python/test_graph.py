@@ -3,8 +3,6 @@
 import copy
 import dataclasses
 import importlib.util
-import subprocess
-import sys
 
 import numpy as np
 import pytest
@@ -154,15 +152,6 @@ def test_pytorch_geometric(mesh):
     data = mesh.to_pyg()
     assert data.validate() and data.num_nodes == len(mesh.points) and not data.is_directed()
     assert data.num_edges == 2 * len(mesh.edges) and data.edge_attr.shape == (data.num_edges, 3)
-
-
-def test_example_of_graphs(repository):
-    run = subprocess.run([sys.executable, str(repository / "examples/python/graphs.py"), "--meshes", "3"], check=True,
-                         capture_output=True, text=True)
-    if importlib.util.find_spec("torch_geometric"):
-        assert "3 meshes" in run.stdout
-    else:
-        assert "not installed" in run.stdout
 
 
 def make_objects():

@@ -63,7 +63,7 @@ def test_version(program):
 
 
 #: What examples are called with so that they take seconds.
-ARGUMENTS = {"data_set": ["--sections", "5", "--jobs", "2"]}
+ARGUMENTS = {"data_set": ["--sections", "5", "--jobs", "2"], "graphs": ["--meshes", "3"]}
 EXAMPLES = sorted((pathlib.Path(__file__).resolve().parent.parent.parent / "examples/python").glob("*.py"))
 
 
@@ -76,7 +76,7 @@ def test_example(example, tmp_path):
     run = subprocess.run([sys.executable, str(example), *ARGUMENTS.get(example.stem, [])], cwd=tmp_path,
                          env={**os.environ, "MPLBACKEND": "Agg"}, capture_output=True, text=True, timeout=120)
     assert run.returncode == 0, run.stderr
-    assert any(tmp_path.iterdir()), "an example leaves files"
+    assert any(tmp_path.iterdir()) or "is not installed" in run.stdout, "an example leaves files"
     for mesh in tmp_path.glob("*.su2"):
         assert lamina.check(lamina.read(mesh)).valid
 

@@ -1,0 +1,128 @@
+// The flow round bodies before there is a mesh.
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/variant.h>
+#include <nanobind/stl/vector.h>
+
+#include "app/flow_run.hpp"
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "facts.hpp"
+#include "interruption.hpp"
+#include "request.hpp"
+#include "sections.hpp"
+
+namespace lamina::python {
+
+namespace {
+
+/// Returns the array of what f(p) is at all points of a side.
+template <class Scalar, class Points, class F>
+auto array_along(const Points& side, F&& f) {
+    std::vector<std::decay_t<decltype(f(side[0]))>> values;
+    for (const auto& p : side) values.push_back(f(p));
+    return owning_array<Scalar>(std::move(values));
+}
+
+/// Adds the arrays that both kinds of flow have.
+template <class Points>
+nb::dict common_arrays(const Points& side) {
+    using P = typename Points::value_type;
+    nb::dict arrays;
+    arrays["points"] = array_along<double>(side, [](const P& p) { return p.at; });
+    arrays["cp"] = array_along<double>(side, [](const P& p) { return p.pressure_coefficient; });
+    arrays["momentum"] = array_along<double>(side, [](const P& p) { return p.momentum; });
+    arrays["displacement"] = array_along<double>(side, [](const P& p) { return p.displacement; });
+    arrays["skin_friction"] = array_along<double>(side, [](const P& p) { return p.skin_friction; });
+    return arrays;
+}
+
+nb::dict side_of(const std::vector<FlowPoint>& side) {
+    nb::dict arrays = common_arrays(side);
+    arrays["arc_length"] = array_along<double>(side, [](const FlowPoint& p) { return p.s; });
+    arrays["speed"] = array_along<double>(side, [](const FlowPoint& p) { return p.speed; });
+    arrays["thickness"] = array_along<double>(side, [](const FlowPoint& p) { return p.thickness; });
+    arrays["shape"] = array_along<double>(side, [](const FlowPoint& p) { return p.shape; });
+    arrays["state"] =
+        array_along<std::uint8_t>(side, [](const FlowPoint& p) { return static_cast<std::uint8_t>(p.state); });
+    return arrays;
+}
+
+nb::dict side_of(const CompressibleSide& side) {
+    nb::dict arrays = common_arrays(side.points);
+    arrays["mach"] = array_along<double>(side.points, [](const CompressibleWallPoint& p) { return p.mach; });
+    nb::list shocks;
+    for (const WallShock& shock : side.shocks) {
+        nb::dict facts;
+        facts["at"] = nb::make_tuple(shock.at.x, shock.at.y);
+        facts["position"] = shock.position;
+        facts["mach_ahead"] = shock.mach_ahead;
+        facts["mach_behind"] = shock.mach_behind;
+        shocks.append(facts);
+    }
+    arrays["shocks"] = shocks;
+    return arrays;
+}
+
+/// Returns (name, upper side, lower side) for each body.
+template <class Elements>
+nb::list elements_of(const Elements& elements) {
+    nb::list result;
+    for (const auto& element : elements)
+        result.append(nb::make_tuple(element.name, side_of(element.upper), side_of(element.lower)));
+    return result;
+}
+
+nb::dict facts_of(const Flow& flow) {
+    nb::dict facts;
+    facts["alpha"] = flow.alpha_deg;
+    facts["chord"] = flow.chord;
+    facts["lift"] = flow.lift;
+    facts["elements"] = elements_of(flow.elements);
+    facts["warnings"] = warnings_of(flow.warnings);
+    return facts;
+}
+
+nb::dict facts_of(CompressibleFlow flow) {
+    nb::dict facts;
+    facts["alpha"] = flow.alpha_deg;
+    facts["chord"] = flow.chord;
+    facts["lift"] = flow.lift;
+    facts["elements"] = elements_of(flow.elements);
+    facts["mach"] = flow.mach;
+    facts["drag"] = flow.drag;
+    facts["viscous_drag"] = flow.viscous_drag;
+    facts["wave_drag"] = flow.wave_drag;
+    facts["has_layers"] = flow.has_layers;
+    facts["converged"] = flow.converged;
+    facts["points"] = owning_array<double>(std::move(flow.points));
+    facts["triangles"] = owning_array<std::uint32_t>(std::move(flow.triangles));
+    facts["mach_numbers"] = owning_array<double>(std::move(flow.mach_numbers));
+    return facts;
+}
+
+/// Returns the flow that `lamina flow` finds, with the options of meshes.
+nb::dict find_flow(const nb::list& given, const std::vector<std::pair<std::string, OptionValue>>& values) {
+    const CaseOptions options = make_request(values).options;
+    const std::vector<Section> sections = sections_of(given);
+    app::FoundFlow found;
+    run_unlocked([&] { found = app::find_flow(geometry_of(sections, options.geometry), options); });
+    nb::dict facts = found.compressible ? facts_of(std::move(*found.compressible)) : facts_of(found.flow);
+    if (!found.compressible) {
+        facts["mach"] = options.conditions.mach ? nb::cast(*options.conditions.mach) : nb::none();
+        facts["has_layers"] = found.has_layers;
+    }
+    return facts;
+}
+
+}  // namespace
+
+void add_flows(nb::module_& module) { module.def("flow", &find_flow); }
+
+}  // namespace lamina::python

@@ -1,0 +1,283 @@
+"""What the other commands of the program do: flow, info, case, family, sizes, convert, view."""
+
+from __future__ import annotations
+
+import math
+import os
+import tempfile
+import warnings
+import webbrowser
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import _lamina
+from ._arrays import Values
+from ._errors import InputError, MeshWarning, OptionError, UsageError
+from ._mesh import Mesh, read
+from ._meshing import made_mesh, run_arguments
+from ._options import with_options
+from ._progress import Progress, callback_of
+from ._sections import Sections
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ._meshing import MeshOptions
+
+#: A Reynolds number chooses a preset for meshes, and changes no wall where there is none.
+_NO_PRESET = {"preset": "none"}
+
+#: The names of the numbers in FlowSide.state.
+BOUNDARY_LAYER_STATES = ("laminar", "turbulent", "separated")
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class FlowSide(Values):
+    """The flow along one side of a body, from the stagnation point to the trailing edge. Thicknesses and friction are 0
+    without a Reynolds number; None is what this kind of flow does not have."""
+
+    points: np.ndarray  #: (n, 2) on the wall
+    cp: np.ndarray  #: (n,) pressure coefficient
+    momentum: np.ndarray  #: (n,) momentum thickness
+    displacement: np.ndarray  #: (n,) displacement thickness
+    skin_friction: np.ndarray  #: (n,) wall shear stress over the dynamic pressure of the free stream
+    arc_length: np.ndarray | None = None  #: (n,) from the stagnation point
+    speed: np.ndarray | None = None  #: (n,) as a multiple of the free stream's
+    thickness: np.ndarray | None = None  #: (n,) of the boundary layer
+    shape: np.ndarray | None = None  #: (n,) displacement over momentum thickness
+    state: np.ndarray | None = None  #: (n,) indices into BOUNDARY_LAYER_STATES
+    mach: np.ndarray | None = None  #: (n,) where the flow is faster than sound
+    shocks: Sequence[Mapping[str, Any]] = ()  #: each with `at`, `position`, `mach_ahead` and `mach_behind`
+
+    def __len__(self) -> int:
+        return len(self.points)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class ElementFlow(Values):
+    """The flow along both sides of a body."""
+
+    upper: FlowSide  #: the side that follows the outline clockwise
+    lower: FlowSide  #: the side that follows the outline counter-clockwise
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Flow(Values):
+    """The flow before a mesh. `drag` and what follows is None where the flow is nowhere faster than sound."""
+
+    alpha: float  #: direction of the free stream, in degrees
+    chord: float  #: reference length of the coefficients
+    lift: float  #: lift coefficient
+    elements: Mapping[str, ElementFlow]  #: by the names of the bodies
+    mach: float | None = None  #: of the free stream
+    has_layers: bool = False  #: whether there are boundary layers
+    warnings: Sequence[MeshWarning] = ()  #: where the flow separates, or could not be found
+    drag: float | None = None  #: drag coefficient
+    viscous_drag: float | None = None  #: of boundary layers and wakes
+    wave_drag: float | None = None  #: of shocks
+    converged: bool = True  #: whether the flow is steady
+    points: np.ndarray | None = None  #: (p, 2) of the mesh that the compressible flow was found on
+    triangles: np.ndarray | None = None  #: (t, 3) of that mesh
+    mach_numbers: np.ndarray | None = None  #: (p,) at its points
+
+
+@with_options
+def flow(sections: Sections, **options: Unpack[MeshOptions]) -> Flow:
+    """Computes the flow round sections without a mesh, as `lamina flow` does: potential flow with boundary layers, or
+    the Euler equations with their displacement where `mach` makes it faster than sound.
+
+    Of the options of `lamina.mesh()` those of the flow count (`alpha`, `mach`, `reynolds`, `chord`, ...), of the geometry,
+    and of walls outside (`ground`, `tunnel`, `periodic`). Raises OptionError, InputError and IoError.
+    """
+    arguments = run_arguments(sections, {**_NO_PRESET, **options})
+    facts = _lamina.flow(arguments.sections, arguments.values)
+    facts["elements"] = {name: ElementFlow(FlowSide(**upper), FlowSide(**lower))
+                         for name, upper, lower in facts["elements"]}
+    facts["warnings"] = [MeshWarning._from(warning) for warning in facts.get("warnings", ())]
+    for warning in facts["warnings"]:
+        warnings.warn(warning, stacklevel=2)
+    return Flow(**facts)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Info(Values):
+    """What is known of sections. print() shows what `lamina info` does."""
+
+    elements: Sequence[Mapping[str, Any]]  #: per body: name, source, format, repairs, wall_vertices and so on
+    text: str  #: the same as text
+
+    def __str__(self) -> str:
+        return self.text
+
+
+@with_options
+def info(sections: Sections, **options: Unpack[MeshOptions]) -> Info:
+    """Describes sections as they were read, repaired and prepared, as `lamina info` does."""
+    arguments = run_arguments(sections, {**_NO_PRESET, **options})
+    return Info(*_lamina.describe(arguments.sections, arguments.values))
+
+
+@with_options
+def case(solver: Literal["openfoam", "su2"], folder: str | os.PathLike[str], sections: Sections, *,
+         turbulence: Literal["sa", "komega-sst", "laminar"] | None = None, unsteady: bool = False,
+         overwrite: bool = False, progress: Progress = None,
+         **options: Unpack[MeshOptions]) -> Mesh:
+    """Makes a mesh and writes it into a folder with all that a flow solver needs beside it, as `lamina case` does.
+
+    turbulence: the model; None: none below a Reynolds number of 1e4, Spalart-Allmaras above. unsteady: the case is solved
+    in time. overwrite: files of the folder are replaced. Returns the mesh. Raises what `lamina.mesh()` raises, and
+    UsageError where files are there already.
+    """
+    arguments = run_arguments(sections, options)
+    with callback_of(progress) as callback:
+        mesh = made_mesh(_lamina.write_case(
+            solver, os.fspath(folder), turbulence or "", unsteady, overwrite, arguments.sections, arguments.values,
+            arguments.sizes, callback))
+    for warning in mesh.warnings:
+        warnings.warn(warning, stacklevel=2)
+    return mesh
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class FamilyMember(Values):
+    """One mesh of a family."""
+
+    level: int  #: 0 is the coarsest
+    divisor: float  #: lengths are those of the options divided by this
+    mesh: Mesh
+    h: float  #: the root of the mean area of the cells: the length of Richardson extrapolation
+    path: str | None = None  #: the file that was written
+
+
+@with_options
+def family(sections: Sections, *, levels: int = 4, ratio: float = math.sqrt(2), base_level: int | None = None,
+           write: str | None = None, progress: Progress = None,
+           **options: Unpack[MeshOptions]) -> list[FamilyMember]:
+    """Makes similar meshes, each finer than the one before, as `lamina family` does.
+
+    levels: their number. ratio: of all lengths from one to the next. base_level: the level with the lengths of the
+    options; None: the middle one. write: path of the mesh files, with {level} in it. The finest mesh is made first.
+    """
+    if levels < 1:
+        raise OptionError(f"levels: must be at least 1, not {levels}")
+    base = levels // 2 if base_level is None else base_level
+    if not 0 <= base < levels:
+        raise OptionError(f"base_level: must be from 0 to {levels - 1}, not {base}")
+    if not 1 < ratio <= 10:
+        raise OptionError(f"ratio: must be above 1 and at most 10, not {ratio}")
+    if write is not None and "{level}" not in write:
+        raise UsageError(f"write: '{write}' must hold {{level}}, which stands for the number of the level")
+    arguments = run_arguments(sections, options)
+    members = []
+    for level in reversed(range(levels)):
+        divisor = math.prod([ratio] * abs(level - base))
+        divisor = divisor if level >= base else 1 / divisor
+        with callback_of(progress) as callback:
+            mesh = made_mesh(_lamina.generate(arguments.sections, arguments.values, arguments.sizes, callback, None,
+                                              divisor))
+        for warning in mesh.warnings:
+            warnings.warn(warning, stacklevel=2)
+        path = None if write is None else write.replace("{level}", str(level))
+        if path is not None:
+            mesh.write(path)
+        members.append(FamilyMember(level, divisor, mesh, math.sqrt(float(mesh.areas.mean())), path))
+    return members[::-1]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class SolutionSizes(Values):
+    """Edge lengths that a solution asks for."""
+
+    points: np.ndarray  #: (n, 2)
+    triangles: np.ndarray  #: (m, 3)
+    sizes: np.ndarray  #: (n,) at the points
+    gradation: float | None  #: growth per unit of distance
+    vertices: int  #: that the next mesh will have
+    errors: Sequence[float]  #: per field: an estimate of its error of interpolation before
+
+    @property
+    def background(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """What `background` of `lamina.mesh()` takes."""
+        return self.points, self.triangles, self.sizes
+
+    def write(self, path: str | os.PathLike[str]) -> None:
+        """Writes a VTU file for `lamina mesh --background`."""
+        _lamina.write_sizes(self.points, self.triangles, self.sizes, self.gradation, os.fspath(path))
+
+
+def sizes(solution: str | os.PathLike[str] | Mesh, fields: str | Sequence[str] | Mapping[str, ArrayLike], *,
+          vertices: float, mesh: str | os.PathLike[str] | None = None, norm: float | None = None,
+          gradation: float | None = None, max_change: float | None = None) -> SolutionSizes:
+    """Returns the edge lengths with which a mesh of so many vertices interpolates a solution best, as `lamina sizes` does.
+
+    solution: a file or folder of a solver, `fields` being names ("p", "U:x", "mag(U)") and `mesh` the file of its mesh
+    where the solution does not hold it; or a Mesh, `fields` being arrays by their names, with a number for each point or
+    for each cell. norm: large ones see large errors above all. max_change: largest factor by which sizes change.
+    """
+    if isinstance(solution, Mesh):
+        if not isinstance(fields, Mapping):
+            raise UsageError("fields: give arrays by their names for a mesh")
+        data = solution._data
+        arrays = [_field(solution, str(name), values) for name, values in fields.items()]
+    else:
+        names = [fields] if isinstance(fields, str) else [str(name) for name in fields]
+        data, arrays = _lamina.read_solution(os.fspath(solution), names, "" if mesh is None else os.fspath(mesh))
+    return SolutionSizes(*_lamina.sizes_of_fields(data, arrays, float(vertices), norm, gradation, max_change))
+
+
+def _field(mesh: Mesh, name: str, values: ArrayLike) -> tuple[str, bool, np.ndarray]:
+    array = np.ascontiguousarray(values, dtype=np.float64)
+    if array.shape not in ((len(mesh.points),), (len(mesh),)):
+        raise InputError(f"{name}: must have one number for each of {len(mesh.points)} points or {len(mesh)} cells, not "
+                         f"the shape {array.shape}")
+    return name, array.shape != (len(mesh.points),), array
+
+
+def convert(source: str | os.PathLike[str], target: str | os.PathLike[str], *, input_format: str = "",
+            **options: Any) -> Mesh:
+    """Reads a mesh and writes it in another format, as `lamina convert` does. options: those of `Mesh.write()`. Returns
+    the mesh."""
+    mesh = read(source, format=input_format)
+    mesh.write(target, **options)
+    return mesh
+
+
+class Page:
+    """A page with an interactive view of a mesh: one HTML file. Notebooks show it in a frame."""
+
+    def __init__(self, html: str, height: int) -> None:
+        self.html = html  #: the page
+        self.height = height  #: of the frame in notebooks, in pixels
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes the page to a file."""
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(self.html)
+
+    def open(self) -> str:
+        """Writes the page to a temporary file, opens that in a browser, and returns its path."""
+        with tempfile.NamedTemporaryFile("w", suffix=".html", encoding="utf-8", delete=False) as file:
+            file.write(self.html)
+        webbrowser.open("file://" + file.name)
+        return file.name
+
+    def __len__(self) -> int:
+        return len(self.html)
+
+    def __repr__(self) -> str:
+        return f"<lamina.Page of {len(self.html):,} characters: show it in a notebook, or save() or open() it>"
+
+    def _repr_html_(self) -> str:
+        from html import escape
+
+        return (f'<iframe srcdoc="{escape(self.html)}" width="100%" height="{self.height}" '
+                'style="border:0" allowfullscreen></iframe>')
+
+
+def view(mesh: Mesh | str | os.PathLike[str], *, title: str = "mesh", height: int = 600) -> Page:
+    """Returns the page that `lamina view` writes, to zoom into a mesh: in a notebook it appears in a frame."""
+    return Page(_lamina.page((mesh if isinstance(mesh, Mesh) else read(mesh))._data, title), height)
