@@ -62,6 +62,13 @@ def test_version(program):
     assert lamina.__version__ in version
 
 
+def test_versions_agree(repository):
+    written = {"CITATION.cff": f"version: {lamina.__version__}", "web/package.json": f'"version": "{lamina.__version__}"',
+               "packaging/vcpkg/vcpkg.json": f'"version": "{lamina.__version__}"'}
+    for file, text in written.items():
+        assert text in (repository / file).read_text(), file
+
+
 #: What examples are called with so that they take seconds.
 ARGUMENTS = {"data_set": ["--sections", "5", "--jobs", "2"], "graphs": ["--meshes", "3"]}
 EXAMPLES = sorted((pathlib.Path(__file__).resolve().parent.parent.parent / "examples/python").glob("*.py"))

@@ -119,6 +119,9 @@ def _vertex_markers(given: Mapping[str, Any], t: Triangulation, segments: np.nda
     """Returns the markers of the points: their own, else that of a segment, else 1 on the boundary."""
     result = np.zeros(len(t.points), dtype=np.int64)
     result[:t.given_points] = _column(given, "vertex_markers", t.given_points)
+    whole = given.get("segments", ()) if "segment_markers" in given and len(t.parents) == 0 else ()
+    if len(whole):  # holes have eaten all of them
+        segments, marks = index_array(whole, 2, "segments"), _column(given, "segment_markers", len(whole))
     for (a, b), mark in zip(segments.tolist(), marks.tolist()):
         for end in (a, b):
             result[end] = result[end] or mark
