@@ -8,9 +8,9 @@
 docs/python.md is the guide.
 """
 
+from typing import TYPE_CHECKING, Any
+
 from ._batch import BatchResult, batch
-from ._commands import (BOUNDARY_LAYER_STATES, ElementFlow, FamilyMember, Flow, FlowSide, Info, Page, SolutionSizes, case, convert,
-                        family, flow, info, sizes, view)
 from ._dynamic import DynamicTriangulation
 from ._errors import (Error, InputError, IoError, LimitError, MeshError, MeshWarning, OptionError, RunEstimate,
                       UsageError, WrongTypeError)
@@ -25,6 +25,10 @@ from ._sections import naca, outlines
 from ._triangulation import (IndexLists, Triangulation, VoronoiDiagram, constrain_triangles, constrained_delaunay,
                              delaunay, merge_points, refine, ring_segments)
 
+if TYPE_CHECKING:
+    from ._commands import (BOUNDARY_LAYER_STATES, ElementFlow, FamilyMember, Flow, FlowSide, Info, Page, SolutionSizes,
+                            case, convert, family, flow, info, sizes, view)
+
 __all__ = ["BOUNDARY_LAYER_STATES", "BatchResult", "DynamicTriangulation", "ElementFlow", "Error", "FamilyMember",
            "Flow", "FlowSide", "IndexLists", "Info", "InputError", "IoError", "LimitError", "Mesh", "MeshCheck",
            "MeshError", "MeshWarning", "MorphMap", "NODE_TYPES", "OptionError", "Page", "QualitySummary",
@@ -33,3 +37,16 @@ __all__ = ["BOUNDARY_LAYER_STATES", "BatchResult", "DynamicTriangulation", "Elem
            "constrain_triangles", "constrained_delaunay", "convert", "delaunay", "family", "flow", "formats", "info",
            "merge_points", "mesh", "mesh_of_arrays", "naca", "outlines", "read", "read_metric", "refine", "remesh",
            "ring_segments", "sizes", "view", "write"]
+
+
+def __getattr__(name: str) -> Any:
+    # Commands that few programs call are read when the first of them is asked for: they take a third of the import.
+    if name in __all__:
+        from . import _commands
+
+        return getattr(_commands, name)
+    raise AttributeError(f"module 'lamina' has no attribute '{name}'")
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

@@ -63,21 +63,34 @@ def coordinates_of(value: Any) -> Any:
     return list(value) if isinstance(value, Iterator) else value
 
 
+def _numbers(points: Any, name: str) -> np.ndarray:
+    """Returns an array of doubles. Raises WrongTypeError for what holds no numbers."""
+    given = points if type(points) in (np.ndarray, list, tuple) else coordinates_of(points)
+    try:
+        array = np.asarray(given, dtype=np.float64, order="C")
+        if array.ndim > 0:
+            return array
+        reason = ""
+    except (TypeError, ValueError) as error:
+        reason = f": {error}"
+    shown = f"{type(points).__name__} {points!r:.40}" if np.ndim(given) == 0 else type(points).__name__
+    raise WrongTypeError(f"{name} must be an (n, 2) array of numbers, not {shown}{reason}")
+
+
 def points_array(points: Any, name: str = "points") -> np.ndarray:
     """Returns an (n, 2) array of doubles. Raises WrongTypeError for what holds no numbers."""
-    given = coordinates_of(points)
-    try:
-        array = np.ascontiguousarray(given, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        shown = f"{type(points).__name__} {points!r:.40}" if np.isscalar(points) else type(points).__name__
-        raise WrongTypeError(f"{name} must be an (n, 2) array of numbers, not {shown}: {error}") from None
-    if np.ndim(given) == 0:
-        raise WrongTypeError(f"{name} must be an (n, 2) array of numbers, not {type(points).__name__} {points!r:.40}")
+    array = _numbers(points, name)
     if array.size == 0:
         return np.empty((0, 2))
     if array.ndim != 2 or array.shape[1] != 2:
         raise InputError(f"{name} must have the shape (n, 2), not {array.shape}")
     return array
+
+
+def queries_array(points: Any) -> tuple[np.ndarray, bool]:
+    """Returns an (n, 2) array of doubles, and whether one point was given, and not an array of them."""
+    array = _numbers(points, "points")
+    return (array[None, :], True) if array.shape == (2,) else (points_array(array), False)
 
 
 def index_array(indices: Any, columns: int, name: str) -> np.ndarray:

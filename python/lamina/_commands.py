@@ -4,15 +4,12 @@ from __future__ import annotations
 
 import math
 import os
-import tempfile
 import warnings
-import webbrowser
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from . import _lamina
 from ._arrays import Values
@@ -24,6 +21,7 @@ from ._progress import Progress, callback_of
 from ._sections import Sections
 
 if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
     from typing_extensions import Unpack
 
     from ._meshing import MeshOptions
@@ -260,6 +258,9 @@ class Page:
 
     def open(self) -> str:
         """Writes the page to a temporary file, opens that in a browser, and returns its path."""
+        import tempfile
+        import webbrowser
+
         with tempfile.NamedTemporaryFile("w", suffix=".html", encoding="utf-8", delete=False) as file:
             file.write(self.html)
         webbrowser.open("file://" + file.name)

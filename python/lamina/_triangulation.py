@@ -7,14 +7,16 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from types import MappingProxyType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from . import _lamina
-from ._arrays import Values, immutable, index_array, points_array
+from ._arrays import Values, immutable, index_array, points_array, queries_array
 from ._errors import InputError, OptionError
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -46,6 +48,9 @@ class VoronoiDiagram(Values):
     directions: np.ndarray  #: (h, 2) the directions of the rays
 
 
+_NO_REGIONS = np.empty(0, dtype=np.int32)
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class Triangulation:
     """A triangulation of points. Indices refer to `points`: those handed in, followed by Steiner points.
@@ -63,10 +68,11 @@ class Triangulation:
     #: (given_points,) for each point that was handed in the one that stands for it; empty unless points were merged
     merged_into: np.ndarray = field(default_factory=lambda: np.empty(0, dtype=np.uint32))
     #: (m,) for each triangle the index of its region in refine(), -1 elsewhere; empty where no regions were given
-    regions: np.ndarray = field(default_factory=lambda: np.empty(0, dtype=np.int32))
+    regions: np.ndarray = field(default_factory=lambda: _NO_REGIONS)
 
     def __post_init__(self) -> None:
-        for name in ("points", "triangles", "segments", "parents", "merged_into", "regions"):
+        arrays = ("points", "triangles", "segments", "parents", "merged_into")
+        for name in arrays if self.regions is _NO_REGIONS else (*arrays, "regions"):
             object.__setattr__(self, name, immutable(getattr(self, name)))
         object.__setattr__(self, "stats", MappingProxyType(dict(self.stats)))
 
@@ -151,12 +157,16 @@ class Triangulation:
         """Returns for each of (n, 2) points the triangle that holds it, -1 outside; for one point an int. Exact; on edges
         and vertices the triangle with the smallest index. The first call prepares the triangulation for this one and
         those below."""
-        return _for_each(lambda queries: self._index.locate(queries)[0], points)
+        queries, is_one = queries_array(points)
+        found = self._index.locate(queries)[0]
+        return int(found[0]) if is_one else found
 
     def nearest(self, points: ArrayLike) -> Any:
         """Returns for each of (n, 2) points the index of the nearest vertex; for one point an int. Exact. For Delaunay
         triangulations of points; UsageError for others."""
-        return _for_each(self._index.nearest, points)
+        queries, is_one = queries_array(points)
+        found = self._index.nearest(queries)
+        return int(found[0]) if is_one else found
 
     def interpolate(self, values: ArrayLike, points: ArrayLike, *, method: str = "linear") -> Any:
         """Returns at each of (n, 2) points the value between `values`, one number or a vector for each point of the
@@ -170,15 +180,13 @@ class Triangulation:
             raise InputError(f"values must have the shape ({len(self.points)}, ...), one for each point, not "
                              f"{numbers.shape}")
         ask = self._index.linear if method == "linear" else self._index.sibson
-
-        def between(queries: np.ndarray) -> np.ndarray:
-            if numbers.ndim == 1:
-                return ask(np.ascontiguousarray(numbers), queries)
-            columns = numbers.reshape(len(numbers), -1).T
-            found = [ask(np.ascontiguousarray(column), queries) for column in columns]
-            return np.stack(found, axis=1).reshape(len(queries), *numbers.shape[1:])
-
-        return _for_each(between, points)
+        queries, is_one = queries_array(points)
+        columns = numbers.reshape(len(numbers), -1).T
+        found = np.stack([ask(np.ascontiguousarray(column), queries) for column in columns], axis=1)
+        values_there = found.reshape(len(queries), *numbers.shape[1:])
+        if not is_one:
+            return values_there
+        return values_there[0] if numbers.ndim > 1 else float(values_there[0])
 
     def natural_neighbours(self, point: Sequence[float]) -> tuple[np.ndarray, np.ndarray]:
         """Returns the indices of the natural neighbours of a point, counter-clockwise, and Sibson's weights; both empty
@@ -201,15 +209,6 @@ class Triangulation:
         from ._picture import draw_triangles
 
         return draw_triangles(self, ax, style)
-
-
-def _for_each(ask: Callable[[np.ndarray], np.ndarray], points: ArrayLike) -> Any:
-    """Returns the answers for (n, 2) points, or the one for one point."""
-    array = np.asarray(points, dtype=np.float64)
-    if array.shape != (2,):
-        return ask(points_array(points))
-    answer = ask(np.ascontiguousarray(array[None, :]))[0]
-    return answer if answer.ndim else answer.item()
 
 
 def delaunay(points: ArrayLike) -> Triangulation:
@@ -329,7 +328,7 @@ def refine(triangulation: Triangulation, size: Any = math.inf, *, gradation: flo
         stats["oversized"] = 0
         stats["refused"] *= stats["below_bound"] != stats["exempt"]
     return Triangulation(_joined(t.points, steiner), triangles, edges, parents, t.given_points, stats, t.merged_into,
-                         of_region.view(np.int32) if len(regions) else np.empty(0, dtype=np.int32))
+                         of_region.view(np.int32) if len(regions) else _NO_REGIONS)
 
 
 def _smaller_size(size: Any, other: float) -> Any:
