@@ -9,7 +9,7 @@ import time
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -20,6 +20,11 @@ from ._mesh import Mesh
 from ._meshing import make_mesh
 from ._options import option_values
 from ._sections import Sections
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ._meshing import MeshOptions
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -109,7 +114,7 @@ def _keep_freed_memory() -> None:
 
 def batch(inputs: Mapping[str, Sections] | Iterable[Sections], *, jobs: int | None = None,
           sweep: Mapping[str, Sequence[Any]] | None = None, write: str | None = None,
-          **options: Any) -> Iterator[BatchResult]:
+          **options: Unpack[MeshOptions]) -> Iterator[BatchResult]:
     """Makes a mesh for each input, on several threads, and yields the results as they are finished.
 
     inputs: what `lamina.mesh()` takes as sections, once for each mesh, or a dictionary from names to these. Files and
@@ -130,7 +135,7 @@ def batch(inputs: Mapping[str, Sections] | Iterable[Sections], *, jobs: int | No
         _lamina.check_options(option_values({k: v for k, v in given.items() if k != "background"}))
     todo = _jobs(inputs, swept, write)
     _keep_freed_memory()
-    return _results(todo, options, jobs or os.cpu_count() or 1)
+    return _results(todo, dict(options), jobs or os.cpu_count() or 1)
 
 
 def _results(todo: list[_Job], options: dict[str, Any], workers: int) -> Iterator[BatchResult]:

@@ -46,20 +46,18 @@ def _in_window(points: np.ndarray, cells: np.ndarray, window: Any) -> np.ndarray
 
 def _cell_values(mesh: Mesh, color: str, kind: str, chosen: np.ndarray) -> np.ndarray:
     """Returns what the colours of these triangles or quads show."""
-    cells = (mesh.triangles if kind == "triangles" else mesh.quads)[chosen]
-    corners = mesh.points[cells]
-    after, before = np.roll(corners, -1, axis=1) - corners, np.roll(corners, 1, axis=1) - corners
-    cross = after[..., 0] * before[..., 1] - after[..., 1] * before[..., 0]
-    if color == "quality":
-        return np.asarray(np.degrees(np.arctan2(cross, (after * before).sum(axis=2))).min(axis=1))
+    numbers = chosen + (0 if kind == "triangles" else len(mesh.triangles))
     if color == "size":
-        shoelace = corners[:, :, 0] * np.roll(corners[:, :, 1], -1, 1) - corners[:, :, 1] * np.roll(
-            corners[:, :, 0], -1, 1)
-        return np.asarray(np.log10(np.sqrt(0.5 * np.abs(shoelace.sum(axis=1)))))
+        return np.asarray(np.log10(np.sqrt(mesh.areas[numbers])))
+    if color == "quality":
+        corners = mesh.points[(mesh.triangles if kind == "triangles" else mesh.quads)[chosen]]
+        after, before = np.roll(corners, -1, axis=1) - corners, np.roll(corners, 1, axis=1) - corners
+        cross = after[..., 0] * before[..., 1] - after[..., 1] * before[..., 0]
+        return np.asarray(np.degrees(np.arctan2(cross, (after * before).sum(axis=2))).min(axis=1))
     values = mesh.piece if color == "piece" else mesh.layer
     if len(values) == 0:
         return np.zeros(len(chosen))
-    return np.asarray(values[chosen + (0 if kind == "triangles" else len(mesh.triangles))], dtype=float)
+    return np.asarray(values[numbers], dtype=float)
 
 
 def _edges_of(cells: np.ndarray) -> np.ndarray:

@@ -3,6 +3,8 @@
 import copy
 import dataclasses
 import importlib.util
+import sys
+import types
 
 import numpy as np
 import pytest
@@ -145,6 +147,21 @@ def test_pyvista(mesh):
     grid = mesh.to_pyvista()
     assert grid.n_cells == len(mesh) and np.array_equal(grid.point_data["wall_distance"], mesh.wall_distance)
     assert grid.compute_cell_sizes()["Area"].sum() == pytest.approx(mesh.areas.sum())
+
+
+def test_arrays_for_pytorch_geometric(mesh, monkeypatch):
+    # The packages take a gigabyte: modules of the same names see what they would be given.
+    torch, geometric, data = (types.ModuleType(name) for name in ("torch", "torch_geometric", "torch_geometric.data"))
+    torch.from_numpy, data.Data = (lambda array: array), types.SimpleNamespace
+    for module in (torch, geometric, data):
+        monkeypatch.setitem(sys.modules, module.__name__, module)
+    graph = mesh.to_pyg()
+    assert all(array.flags.writeable for array in vars(graph).values())
+    assert graph.edge_index.dtype == np.int64 and graph.edge_index.shape == (2, 2 * len(mesh.edges))
+    start, end = graph.pos[graph.edge_index]
+    assert np.array_equal(graph.edge_attr[:, :2], end - start)
+    assert np.allclose(graph.edge_attr[:, 2], np.linalg.norm(end - start, axis=1))
+    assert hasattr(graph, "face") == (len(mesh.quads) == 0) and np.array_equal(graph.node_type, mesh.node_type)
 
 
 def test_pytorch_geometric(mesh):

@@ -20,14 +20,14 @@ import numpy as np
 
 from .._arrays import index_array, points_array
 from .._errors import UsageError
-from .._graph import find_edges
+from .._graph import MeshEdges, find_edges
 from .._triangulation import Triangulation, constrain_triangles, constrained_delaunay, refine
 
 #: A switch and its number.
 _SWITCH = re.compile(r"([a-zA-Z])(\d*\.?\d*(?:[eE][-+]?\d+)?)")
 #: Switches with numbers; those whose effect lies in the algorithm, or in what is printed, are taken and do nothing here.
-_WITH_NUMBER, _WITHOUT_EFFECT = "qaSoX", "CFilOQVXsyz"
-_KNOWN = "prqaAcDjeEvnNBPIoYS" + _WITHOUT_EFFECT
+_WITH_NUMBER, _WITHOUT_EFFECT = "qaSoX", "CFIilOQSVXsvyz"
+_KNOWN = "prqaAcDjeEnNBPoY" + _WITHOUT_EFFECT
 _DEFAULT_ANGLE = 20.0
 
 
@@ -147,8 +147,8 @@ def triangulate(tri: Mapping[str, Any], opts: str = "") -> dict[str, Any]:
 
     tri: a dictionary with `vertices` (n, 2), and where they are wanted `vertex_attributes`, `vertex_markers`, `segments`
     (k, 2), `segment_markers`, `holes` (h, 2), `regions` (r, 4: x, y, attribute, largest area), `triangles`,
-    `triangle_max_area`. opts: p, r, q[angle], a[area], A, c, D, Y, e, n, v, o2, j, B, P, N and E have their meaning; s, i,
-    F, l, C, I, O, Q, S, V, X and z are taken. Raises UsageError for other switches, and what
+    `triangle_max_area`. opts: p, r, q[angle], a[area], A, c, D, Y, e, n, o2, j, B, P, N and E have their meaning; s, i, F,
+    l, v, C, I, O, Q, S, V, X, y and z are taken. Raises UsageError for other switches, and what
     `lamina.constrained_delaunay()` and `lamina.refine()` raise.
     """
     switches = _switches(opts)
@@ -176,7 +176,7 @@ def triangulate(tri: Mapping[str, Any], opts: str = "") -> dict[str, Any]:
     if "j" in switches:
         _drop_unused(result)
     if "o" in switches and switches["o"] == "2":
-        _add_quadratic_nodes(result, t)
+        _add_quadratic_nodes(result, t, boundary)
     for letter, key in (("N", "vertices"), ("E", "triangles")):
         if letter in switches:
             del result[key]
@@ -186,9 +186,9 @@ def triangulate(tri: Mapping[str, Any], opts: str = "") -> dict[str, Any]:
     return {key: values for key, values in result.items() if len(values)}
 
 
-def _add_connectivity(result: dict[str, Any], switches: dict[str, str], t: Triangulation, edges: Any,
+def _add_connectivity(result: dict[str, Any], switches: dict[str, str], t: Triangulation, edges: MeshEdges,
                       segments: np.ndarray, marks: np.ndarray) -> None:
-    """Adds what -n, -e and -v ask for."""
+    """Adds what -n and -e ask for."""
     if "n" in switches:
         result["neighbors"] = t.neighbours.astype(np.int32)
     if "e" in switches:
@@ -212,7 +212,7 @@ def _drop_unused(result: dict[str, Any]) -> None:
             result[key] = number[result[key]].astype(np.int32)
 
 
-def _add_quadratic_nodes(result: dict[str, Any], t: Triangulation) -> None:
+def _add_quadratic_nodes(result: dict[str, Any], t: Triangulation, boundary: np.ndarray) -> None:
     """Puts the middles of edges behind the points, as nodes of the triangles."""
     points, nodes = t.quadratic_nodes()
     added = len(points) - len(t.points)
@@ -221,8 +221,7 @@ def _add_quadratic_nodes(result: dict[str, Any], t: Triangulation) -> None:
     of_middle[nodes[:, 3:].reshape(-1) - len(t.points)] = ends
     result["vertices"], result["triangles"] = points, nodes.astype(np.int32)
     if "vertex_markers" in result:
-        edges = find_edges(t.triangles, np.empty((0, 4), dtype=np.uint32))
-        outer = {tuple(edge) for edge in edges.ends[edges.cells[:, 1] < 0].tolist()}
+        outer = {tuple(edge) for edge in boundary.tolist()}
         markers = [int(tuple(edge) in outer) for edge in np.sort(of_middle, axis=1).tolist()]
         result["vertex_markers"] = np.concatenate([result["vertex_markers"], markers])
     if "vertex_attributes" in result:
