@@ -8,7 +8,8 @@
 
 namespace lamina::core {
 
-/// Edge i of triangle t of a list, from its vertex i to the next one: 4 t + i. A list has less than 2^30 triangles.
+/// Edge i of triangle t of a list: 4 t + i. Where nothing else is said, edge i leads from vertex i to the next one. A list has
+/// less than 2^30 triangles.
 using EdgeLink = std::uint32_t;
 /// Stands where there is no neighbour.
 inline constexpr EdgeLink no_link = std::numeric_limits<EdgeLink>::max();
@@ -16,7 +17,7 @@ inline constexpr EdgeLink no_link = std::numeric_limits<EdgeLink>::max();
 constexpr EdgeLink edge_link(std::size_t triangle, unsigned edge) {
     return static_cast<EdgeLink>(triangle << 2) | edge;
 }
-constexpr std::size_t triangle_of(EdgeLink link) { return link >> 2; }
+constexpr std::uint32_t triangle_of(EdgeLink link) { return link >> 2; }
 constexpr unsigned edge_of(EdgeLink link) { return link & 3u; }
 
 /// The neighbours of all triangles of a list: entry 3 t + i is the edge of the neighbour across edge i of triangle t.

@@ -2,6 +2,8 @@
 // Walking in a triangulation, Int. J. Found. Comput. Sci. 13 (2002).
 #include "remeshing/background.hpp"
 
+#include <algorithm>
+
 #include "core/random.hpp"
 #include "remeshing/metric.hpp"
 
@@ -22,10 +24,9 @@ std::array<double, 3> BackgroundMetric::weights(Point p, const MeshTriangle& tri
 }
 
 BackgroundMetric::Sample BackgroundMetric::at(Point p, std::uint32_t hint) const {
-    constexpr std::uint32_t most_steps = 10'000;
     std::uint32_t at = hint, from = hint;
     std::array<double, 3> w = weights(p, triangles_[at]);
-    for (std::uint32_t step = 0; step < most_steps && std::min({w[0], w[1], w[2]}) < 0; ++step) {
+    for (std::uint32_t step = 0; step < triangles_.size() && std::min({w[0], w[1], w[2]}) < 0; ++step) {
         const MeshTriangle& triangle = triangles_[at];
         std::uint32_t next = at;
         const unsigned first = static_cast<unsigned>(core::splitmix64(step) % 3);

@@ -1,7 +1,6 @@
 // Metric tensors: sizes, lengths and shapes.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
 #include <lamina/metric.hpp>

@@ -49,7 +49,7 @@ void MetricMesh::renumber() {
             }
             triangle.v[i] = vertex_number[v];
             if (!is_border(triangle.n[i]))
-                triangle.n[i] = edge_handle(number[triangle_of(triangle.n[i])], edge_of(triangle.n[i]));
+                triangle.n[i] = edge_link(number[triangle_of(triangle.n[i])], edge_of(triangle.n[i]));
         }
         new_triangles.push_back(triangle);
     }
@@ -66,7 +66,7 @@ void MetricMesh::renew(std::uint32_t t) {
     triangle.is_settled = a.is_settled = b.is_settled = c.is_settled = false;
 }
 
-bool MetricMesh::collect_ring(std::uint32_t v, Ring& ring) const {
+void MetricMesh::collect_ring(std::uint32_t v, Ring& ring) const {
     ring.clear();
     std::uint32_t t = vertices[v].triangle;
     const auto corner_in = [&](std::uint32_t triangle) {
@@ -83,64 +83,73 @@ bool MetricMesh::collect_ring(std::uint32_t v, Ring& ring) const {
     }
     const std::uint32_t first = t;
     do {
-        if (!ring.add(t, i)) return false;
+        ring.push_back(edge_link(t, i));
         const EdgeHandle behind = triangles[t].n[after(i)];
         if (is_border(behind)) break;
         t = triangle_of(behind);
         i = after(edge_of(behind));
     } while (t != first);
-    return true;
+}
+
+MetricMesh::TwoTriangles MetricMesh::triangles_at(EdgeHandle h) const {
+    const EdgeHandle behind = triangles[triangle_of(h)].n[edge_of(h)];
+    const MeshTriangle &t = triangles[triangle_of(h)], &u = triangles[triangle_of(behind)];
+    const unsigned e = edge_of(h), f = edge_of(behind);
+    return {triangle_of(h), triangle_of(behind), t.v[e],         t.v[after(e)], t.v[before(e)],
+            u.v[f],         t.n[after(e)],       t.n[before(e)], u.n[after(f)], u.n[before(f)]};
 }
 
 std::uint32_t MetricMesh::divide(EdgeHandle h, const MeshVertex& vertex) {
+    if (is_border(triangles[triangle_of(h)].n[edge_of(h)])) return divide_border(h, vertex);
     //        a                  a
     //      / t \              / | \          The handles of a-b and of d-c stay; edges of t and u that lead to c and b
     //    b ----- c    ->    b - p - c        pass to the new triangles.
     //      \ u /              \ | /
     //        d                  d
-    const std::uint32_t t = triangle_of(h);
-    const unsigned e = edge_of(h);
-    const std::uint32_t a = triangles[t].v[e], b = triangles[t].v[after(e)], c = triangles[t].v[before(e)];
-    const EdgeHandle behind = triangles[t].n[e];
+    const auto [t, u, a, b, c, d, to_ca, to_ab, to_bd, to_dc] = triangles_at(h);
     const Point p = vertex.at;
     if (!turns_left(point(a), point(b), p) || !turns_left(point(a), p, point(c))) return no_index;
-    const auto v = static_cast<std::uint32_t>(vertices.size());
-    if (is_border(behind)) {
-        vertices.push_back(vertex);
-        const std::uint32_t t2 = new_triangle();
-        const EdgeHandle to_ca = triangles[t].n[after(e)], to_ab = triangles[t].n[before(e)];
-        set_corners(t, a, b, v);
-        set_corners(t2, a, v, c);
-        link(t, 0, behind);
-        link(t, 1, edge_handle(t2, 2));
-        link(t, 2, to_ab);
-        link(t2, 0, behind);
-        link(t2, 1, to_ca);
-        renew(t);
-        renew(t2);
-        return v;
-    }
-    const std::uint32_t u = triangle_of(behind);
-    const unsigned f = edge_of(behind);
-    const std::uint32_t d = triangles[u].v[f];
     if (!turns_left(point(d), point(c), p) || !turns_left(point(d), p, point(b))) return no_index;
+    const auto v = static_cast<std::uint32_t>(vertices.size());
     vertices.push_back(vertex);
     const std::uint32_t t2 = new_triangle(), u2 = new_triangle();
-    const EdgeHandle to_ca = triangles[t].n[after(e)], to_ab = triangles[t].n[before(e)];
-    const EdgeHandle to_bd = triangles[u].n[after(f)], to_dc = triangles[u].n[before(f)];
     set_corners(t2, a, v, c);
     set_corners(u2, d, v, b);
     set_corners(t, a, b, v);
     set_corners(u, d, c, v);
-    link(t, 0, edge_handle(u2, 0));
-    link(t, 1, edge_handle(t2, 2));
+    link(t, 0, edge_link(u2, 0));
+    link(t, 1, edge_link(t2, 2));
     link(t, 2, to_ab);
-    link(t2, 0, edge_handle(u, 0));
+    link(t2, 0, edge_link(u, 0));
     link(t2, 1, to_ca);
-    link(u, 1, edge_handle(u2, 2));
+    link(u, 1, edge_link(u2, 2));
     link(u, 2, to_dc);
     link(u2, 1, to_bd);
     for (const std::uint32_t changed : {t, t2, u, u2}) renew(changed);
+    return v;
+}
+
+std::uint32_t MetricMesh::divide_border(EdgeHandle h, const MeshVertex& vertex) {
+    //        a                  a
+    //      / t \              / | \          The handle of a-b stays.
+    //    b ----- c    ->    b - p - c
+    const std::uint32_t t = triangle_of(h);
+    const unsigned e = edge_of(h);
+    const std::uint32_t a = triangles[t].v[e], b = triangles[t].v[after(e)], c = triangles[t].v[before(e)];
+    const EdgeHandle border = triangles[t].n[e], to_ca = triangles[t].n[after(e)], to_ab = triangles[t].n[before(e)];
+    if (!turns_left(point(a), point(b), vertex.at) || !turns_left(point(a), vertex.at, point(c))) return no_index;
+    const auto v = static_cast<std::uint32_t>(vertices.size());
+    vertices.push_back(vertex);
+    const std::uint32_t t2 = new_triangle();
+    set_corners(t, a, b, v);
+    set_corners(t2, a, v, c);
+    link(t, 0, border);
+    link(t, 1, edge_link(t2, 2));
+    link(t, 2, to_ab);
+    link(t2, 0, border);
+    link(t2, 1, to_ca);
+    renew(t);
+    renew(t2);
     return v;
 }
 
@@ -150,17 +159,12 @@ void MetricMesh::swap(EdgeHandle h, float first, float second) {
     //    b ----- c   ->    b t | u c
     //      \ u /             \ | /
     //        d                 d
-    const std::uint32_t t = triangle_of(h), u = triangle_of(triangles[t].n[edge_of(h)]);
-    const unsigned e = edge_of(h), f = edge_of(triangles[t].n[edge_of(h)]);
-    const std::uint32_t a = triangles[t].v[e], b = triangles[t].v[after(e)], c = triangles[t].v[before(e)];
-    const std::uint32_t d = triangles[u].v[f];
+    const auto [t, u, a, b, c, d, to_ca, to_ab, to_bd, to_dc] = triangles_at(h);
     assert(turns_left(point(a), point(b), point(d)) && turns_left(point(a), point(d), point(c)));
-    const EdgeHandle to_ca = triangles[t].n[after(e)], to_ab = triangles[t].n[before(e)];
-    const EdgeHandle to_bd = triangles[u].n[after(f)], to_dc = triangles[u].n[before(f)];
     set_corners(t, a, b, d);
     set_corners(u, a, d, c);
     link(t, 0, to_bd);
-    link(t, 1, edge_handle(u, 2));
+    link(t, 1, edge_link(u, 2));
     link(t, 2, to_ab);
     link(u, 0, to_dc);
     link(u, 1, to_ca);
@@ -198,7 +202,7 @@ void MetricMesh::contract(std::uint32_t v, const Ring& ring, std::uint32_t onto)
         if (triangles[triangle_of(h)].is_used()) renew(triangle_of(h));
 }
 
-void MetricMesh::move(std::uint32_t v, const Ring& ring, const MeshVertex& moved, const float* distortions) {
+void MetricMesh::move(std::uint32_t v, const Ring& ring, const MeshVertex& moved, std::span<const float> distortions) {
     vertices[v] = moved;
     vertices[v].is_settled = false;
     for (std::size_t i = 0; i < ring.size(); ++i) {

@@ -8,16 +8,16 @@
 // Edge e of a triangle is opposite its corner e, and leads from corner e + 1 to corner e + 2.
 #pragma once
 
-#include <array>
 #include <cassert>
 #include <cstdint>
 #include <limits>
-#include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include <lamina/remesh.hpp>
 
+#include "core/edge_links.hpp"
 #include "core/predicates.hpp"
 #include "remeshing/metric.hpp"
 
@@ -25,18 +25,18 @@ namespace lamina::remeshing {
 
 inline constexpr std::uint32_t no_index = std::numeric_limits<std::uint32_t>::max();
 
-/// An edge of a triangle: the number of the triangle times 4, plus that of the edge. Or, with the highest bit set, a border:
-/// nothing behind it changes. Its number is 0 where it stays, or that of a marker, from 1, on which it may be divided.
-using EdgeHandle = std::uint32_t;
+/// An edge of a triangle, opposite its corner of this number. Or, with the highest bit set, a border: nothing behind it
+/// changes. Its number is 0 where it stays, or that of a marker, from 1, on which it may be divided.
+using EdgeHandle = core::EdgeLink;
+using core::edge_link;
+using core::edge_of;
+using core::triangle_of;
 inline constexpr EdgeHandle border_bit = 1u << 31;
 inline constexpr EdgeHandle frozen_border = border_bit;
 /// More triangles have no handles.
 inline constexpr std::size_t most_triangles = std::size_t{1} << 29;
 [[noreturn]] void refuse_more_triangles();
 constexpr bool is_border(EdgeHandle h) { return (h & border_bit) != 0; }
-constexpr std::uint32_t triangle_of(EdgeHandle h) { return h >> 2; }
-constexpr unsigned edge_of(EdgeHandle h) { return h & 3u; }
-constexpr EdgeHandle edge_handle(std::uint32_t triangle, unsigned edge) { return triangle << 2 | edge; }
 constexpr unsigned after(unsigned i) { return i == 2 ? 0 : i + 1; }
 constexpr unsigned before(unsigned i) { return i == 0 ? 2 : i - 1; }
 
@@ -68,26 +68,8 @@ struct MeshTriangle {
     bool is_used() const { return v[0] != no_index; }
 };
 
-/// The triangles round a vertex, counter-clockwise, each with the number of the vertex among its corners.
-class Ring {
-public:
-    static constexpr std::size_t capacity = 48;
-    void clear() { size_ = 0; }
-    bool add(std::uint32_t triangle, unsigned corner) {
-        if (size_ == capacity) return false;
-        entries_[size_++] = edge_handle(triangle, corner);
-        return true;
-    }
-    std::size_t size() const { return size_; }
-    /// Returns the edge of triangle i opposite the vertex.
-    EdgeHandle operator[](std::size_t i) const { return entries_[i]; }
-    const EdgeHandle* begin() const { return entries_.data(); }
-    const EdgeHandle* end() const { return entries_.data() + size_; }
-
-private:
-    std::array<EdgeHandle, capacity> entries_{};
-    std::size_t size_ = 0;
-};
+/// The triangles round a vertex, counter-clockwise, each by its edge opposite the vertex.
+using Ring = std::vector<EdgeHandle>;
 
 class MetricMesh {
 public:
@@ -109,8 +91,8 @@ public:
         return triangle_distortion(a.at, b.at, c.at, a.metric + b.metric + c.metric);
     }
 
-    /// Collects the triangles round a vertex; on a line from border to border. Returns false where there are too many.
-    bool collect_ring(std::uint32_t v, Ring& ring) const;
+    /// Collects the triangles round a vertex; on a line from border to border.
+    void collect_ring(std::uint32_t v, Ring& ring) const;
 
     /// Divides an edge by a new vertex on it. Returns the number of the vertex, or no_index where a triangle would not be
     /// counter-clockwise.
@@ -122,7 +104,7 @@ public:
     void contract(std::uint32_t v, const Ring& ring, std::uint32_t onto);
     /// Moves a vertex, with its metric. `distortions` are those of its triangles afterwards. Precondition: the triangles stay
     /// counter-clockwise.
-    void move(std::uint32_t v, const Ring& ring, const MeshVertex& moved, const float* distortions);
+    void move(std::uint32_t v, const Ring& ring, const MeshVertex& moved, std::span<const float> distortions);
     /// Numbers triangles and vertices as a walk from neighbour to neighbour meets them, and drops those that are not in use:
     /// what is close in the mesh comes close in memory. Source: E. Cuthill, J. McKee, ACM National Conference (1969).
     void renumber();
@@ -130,10 +112,17 @@ public:
     void renew(std::uint32_t t);
 
 private:
+    /// Two triangles t and u at an edge b-c, with the corners a and d opposite it, and what is behind their other edges.
+    struct TwoTriangles {
+        std::uint32_t t, u, a, b, c, d;
+        EdgeHandle to_ca, to_ab, to_bd, to_dc;
+    };
+    TwoTriangles triangles_at(EdgeHandle h) const;
+    std::uint32_t divide_border(EdgeHandle h, const MeshVertex& vertex);
     std::uint32_t new_triangle();
     void link(std::uint32_t t, unsigned e, EdgeHandle behind) {
         triangles[t].n[e] = behind;
-        if (!is_border(behind)) triangles[triangle_of(behind)].n[edge_of(behind)] = edge_handle(t, e);
+        if (!is_border(behind)) triangles[triangle_of(behind)].n[edge_of(behind)] = edge_link(t, e);
     }
     void set_corners(std::uint32_t t, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
         triangles[t].v[0] = a;

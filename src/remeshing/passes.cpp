@@ -10,6 +10,12 @@ namespace lamina::remeshing {
 namespace {
 
 constexpr std::uint32_t triangles_per_look = 4096;
+/// Swaps and moves that lower distortions by a smaller share are left. With ten times as much the mean quality falls by 0.004;
+/// a tenth raises it by 0.0004.
+constexpr float least_gain = 0.001F;
+/// Contractions leave triangles of half the best quality, or of the worst one before them. With 0 or 2 in place of 4, 77 and 84 %
+/// of the edges have the length asked for, and not 96 %; with 8 the mean quality falls by 0.0006.
+constexpr float acceptable_distortion = 4;
 
 }  // namespace
 
@@ -67,22 +73,23 @@ bool Passes::swap_if_better(EdgeHandle h) {
                      &c = mesh_.vertices[triangle.v[before(e)]], &d = mesh_.vertices[other.v[edge_of(behind)]];
     const auto first = static_cast<float>(mesh_.distortion(a, b, d));
     const auto second = static_cast<float>(mesh_.distortion(a, d, c));
-    if (!(first > 0 && second > 0 && first + second < 0.999F * (triangle.distortion + other.distortion))) return false;
+    if (!(first > 0 && second > 0 && first + second < (1 - least_gain) * (triangle.distortion + other.distortion)))
+        return false;
     if (!mesh_.turns_left(a.at, b.at, d.at) || !mesh_.turns_left(a.at, d.at, c.at)) return false;
     mesh_.swap(h, first, second);
     return true;
 }
 
 void Passes::swap_round(std::uint32_t v) {
-    if (!mesh_.collect_ring(v, ring_)) return;
+    mesh_.collect_ring(v, ring_);
     stack_.assign(ring_.begin(), ring_.end());
     while (!stack_.empty()) {
         const EdgeHandle h = stack_.back();
         stack_.pop_back();
         const EdgeHandle behind = mesh_.triangles[triangle_of(h)].n[edge_of(h)];
         if (!swap_if_better(h)) continue;
-        stack_.push_back(edge_handle(triangle_of(h), 0));
-        stack_.push_back(edge_handle(triangle_of(behind), 0));
+        stack_.push_back(edge_link(triangle_of(h), 0));
+        stack_.push_back(edge_link(triangle_of(behind), 0));
     }
 }
 
@@ -92,7 +99,7 @@ void Passes::divide_longer(double length) {
         while (mesh_.triangles[t].is_used()) {
             const LongEdge found = longest_edge_of(mesh_.triangles[t], length);
             if (!(found.length > length)) break;
-            const std::uint32_t v = divide(edge_handle(t, found.edge));
+            const std::uint32_t v = divide(edge_link(t, found.edge));
             if (v == no_index) break;
             swap_round(v);
         }
@@ -104,7 +111,7 @@ void Passes::swap_an_edge_of(std::uint32_t t) {
         // The triangle behind an edge looks at it, too, where it is still to come.
         const std::uint32_t beyond = triangle_of(mesh_.triangles[t].n[e]);
         if (!is_border(mesh_.triangles[t].n[e]) && beyond > t && !mesh_.triangles[beyond].is_settled) continue;
-        if (swap_if_better(edge_handle(t, e))) return;
+        if (swap_if_better(edge_link(t, e))) return;
     }
 }
 
@@ -121,15 +128,15 @@ void Passes::swap_diagonals() {
 bool Passes::contract(std::uint32_t v, std::uint32_t onto) {
     const MeshVertex &gone = mesh_.vertices[v], &kept = mesh_.vertices[onto];
     if (gone.freedom == Freedom::fixed) return false;
-    if (!mesh_.collect_ring(v, ring_)) return false;
+    mesh_.collect_ring(v, ring_);
     if (gone.freedom == Freedom::on_line) {
         // Only along the line: to the vertex at the border of the first or of the last triangle.
-        const MeshTriangle &first = mesh_.triangles[triangle_of(ring_[0])],
-                           &last = mesh_.triangles[triangle_of(ring_[ring_.size() - 1])];
-        if (first.v[after(edge_of(ring_[0]))] != onto && last.v[before(edge_of(ring_[ring_.size() - 1]))] != onto)
+        const MeshTriangle &first = mesh_.triangles[triangle_of(ring_.front())],
+                           &last = mesh_.triangles[triangle_of(ring_.back())];
+        if (first.v[after(edge_of(ring_.front()))] != onto && last.v[before(edge_of(ring_.back()))] != onto)
             return false;
     }
-    float worst = 0, worst_before = 4;
+    float worst = 0, worst_before = acceptable_distortion;
     for (const EdgeHandle h : ring_) {
         const MeshTriangle& triangle = mesh_.triangles[triangle_of(h)];
         const std::uint32_t x = triangle.v[after(edge_of(h))], y = triangle.v[before(edge_of(h))];
@@ -189,29 +196,27 @@ Passes::Target Passes::find_target(std::uint32_t v) const {
 }
 
 void Passes::move(std::uint32_t v) {
-    // Smaller gains would not be worth the work of finding them.
-    constexpr float least_gain = 0.001F;
     if (mesh_.vertices[v].freedom != Freedom::free || mesh_.vertices[v].is_settled || !mesh_.vertices[v].is_used())
         return;
     mesh_.vertices[v].is_settled = true;
-    if (!mesh_.collect_ring(v, ring_)) return;
+    mesh_.collect_ring(v, ring_);
     const Target target = find_target(v);
     MeshVertex moved = mesh_.vertices[v];
     moved.at = target.place;
     const BackgroundMetric::Sample sample = background_.at(moved.at, moved.place);
     moved.metric = sample.metric;
     moved.place = sample.triangle;
-    float distortions[Ring::capacity];
+    distortions_.clear();
     float left = (1 - least_gain) * target.distortion_before;
-    for (std::size_t i = 0; i < ring_.size(); ++i) {
-        const MeshTriangle& triangle = mesh_.triangles[triangle_of(ring_[i])];
-        const MeshVertex &x = mesh_.vertices[triangle.v[after(edge_of(ring_[i]))]],
-                         &y = mesh_.vertices[triangle.v[before(edge_of(ring_[i]))]];
-        distortions[i] = static_cast<float>(mesh_.distortion(moved, x, y));
-        left -= distortions[i];
-        if (!(distortions[i] > 0 && left > 0) || !mesh_.turns_left(moved.at, x.at, y.at)) return;
+    for (const EdgeHandle h : ring_) {
+        const MeshTriangle& triangle = mesh_.triangles[triangle_of(h)];
+        const MeshVertex &x = mesh_.vertices[triangle.v[after(edge_of(h))]],
+                         &y = mesh_.vertices[triangle.v[before(edge_of(h))]];
+        distortions_.push_back(static_cast<float>(mesh_.distortion(moved, x, y)));
+        left -= distortions_.back();
+        if (!(distortions_.back() > 0 && left > 0) || !mesh_.turns_left(moved.at, x.at, y.at)) return;
     }
-    mesh_.move(v, ring_, moved, distortions);
+    mesh_.move(v, ring_, moved, distortions_);
 }
 
 void Passes::move_vertices() {

@@ -53,6 +53,7 @@ private:
     MetricMesh& mesh_;
     const BackgroundMetric& background_;
     Ring ring_;
+    std::vector<float> distortions_;
     std::vector<EdgeHandle> stack_;
 };
 

@@ -112,7 +112,7 @@ private:
         if (behind == 0) {
             const std::size_t cell = edges_.cell_of(twin);
             const bool changes = cell < number.size() && number[cell] != no_index;
-            behind = changes ? edge_handle(number[cell], before(twin % 3)) : frozen_border;
+            behind = changes ? edge_link(number[cell], before(twin % 3)) : frozen_border;
         }
         region_.triangles[triangle].n[e] = behind;
         if (is_border(behind)) note_border(region_.triangles[triangle], e);
