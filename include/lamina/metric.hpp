@@ -33,7 +33,7 @@ struct MetricTensor {
 /// components (xx, xy, yy; only with this name), 4, 6 (xx, yy, zz, xy, yz, xz) or 9. A size h is the tensor with 1 / h^2 on
 /// its diagonal. Throws IoError; UsageError for other extensions; InputError where the file is malformed or holds none.
 LAMINA_EXPORT std::vector<MetricTensor> read_metric(const std::filesystem::path& file);
-/// Writes tensors as a Medit file in ASCII (.sol). Throws IoError.
+/// Writes tensors as a Medit file in ASCII (.sol). Throws IoError; UsageError for other extensions.
 LAMINA_EXPORT void write_metric(std::span<const MetricTensor> metric, const std::filesystem::path& file);
 
 }  // namespace lamina

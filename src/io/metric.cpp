@@ -142,6 +142,8 @@ std::vector<MetricTensor> read_metric(const std::filesystem::path& file) {
 }
 
 void write_metric(std::span<const MetricTensor> metric, const std::filesystem::path& file) {
+    if (core::extension_of(file) != ".sol")
+        throw UsageError(fmt::format("{}: metrics are written to Medit files (.sol)", file.string()));
     core::write_stream_atomically(file, [&](std::ostream& out) {
         out << "MeshVersionFormatted 2\nDimension 2\nSolAtVertices\n" << metric.size() << "\n1 3\n";
         for (const MetricTensor& m : metric) out << fmt::format("{:.17g} {:.17g} {:.17g}\n", m.xx, m.xy, m.yy);

@@ -59,6 +59,8 @@ TEST_F(MetricFiles, ThatAreNoneAreRefused) {
     EXPECT_THROW(read_metric(vtu("2", "1 2 3 4", "metric")), InputError);
     EXPECT_THROW(read_metric(vtu("3", "1 0 0 2 0 0")), InputError) << "a vector";
     EXPECT_THROW(read_metric(folder_.write("m.txt", "")), UsageError);
+    EXPECT_THROW(write_metric({}, folder_ / "m.txt"), UsageError);
+    EXPECT_THROW(write_metric({}, folder_ / "m.vtu"), UsageError);
     EXPECT_THROW(read_metric(folder_ / "none.sol"), IoError);
 }
 
