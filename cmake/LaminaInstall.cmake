@@ -53,6 +53,6 @@ if(lamina IN_LIST LAMINA_COMPONENTS)
     set(cgns_library -lcgns)
   endif()
   lamina_pkg_config(lamina "${PROJECT_DESCRIPTION}"
-    FOLDERS cases pipeline page plot remeshing morphing adaptation io mesh decoupling layers flow surface geometry delaunay sizing core
+    FOLDERS cases pipeline page plot morphing adaptation remeshing io mesh decoupling layers flow surface geometry delaunay sizing core
     LIBRARIES -lfmt -lz -lcairo ${cgns_library} ${thread_library})
 endif()

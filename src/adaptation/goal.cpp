@@ -8,7 +8,6 @@
 #include <lamina/error.hpp>
 
 #include "adaptation/cell_gradients.hpp"
-#include "adaptation/hessian.hpp"
 #include "adaptation/vertex_patches.hpp"
 #include "mesh/adjacency.hpp"
 
@@ -149,7 +148,7 @@ std::vector<EdgeValues> goal_curvatures_of_walls(const Solution& solution, const
     return curvatures;
 }
 
-std::vector<double> goal_curvatures(const Solution& solution, const GoalOptions& options) {
+std::vector<Hessian> goal_hessians(const Solution& solution, const GoalOptions& options) {
     std::vector<Hessian> sums(solution.mesh.points.size());
     for (const Equation& equation : equations_of(fields_of(solution, options))) {
         const std::vector<Derivatives> adjoint = recover_derivatives(solution.mesh, equation.adjoint),
@@ -159,9 +158,7 @@ std::vector<double> goal_curvatures(const Solution& solution, const GoalOptions&
             sums[i] = sums[i] + std::abs(adjoint[i].gradient.x) * absolute(along_x[i].hessian) +
                       std::abs(adjoint[i].gradient.y) * absolute(along_y[i].hessian);
     }
-    std::vector<double> curvatures;
-    for (const Hessian& sum : sums) curvatures.push_back(largest_curvature(sum));
-    return curvatures;
+    return sums;
 }
 
 }  // namespace lamina::adaptation

@@ -6,18 +6,18 @@
 #include <lamina/solution.hpp>
 #include <lamina/solution_sizes.hpp>
 
+#include "adaptation/hessian.hpp"
 #include "adaptation/wall_flow.hpp"
 #include "adaptation/wall_sizes.hpp"
 
 namespace lamina::adaptation {
 
-/// Returns a second derivative per vertex of the isotropic cells, 0 elsewhere, whose integral of the errors of interpolation
-/// is that of the goal: the larger eigenvalue of the sum, over the equations of incompressible flow, of
-/// |dW*/dx| |H(F)| + |dW*/dy| |H(G)|, where W* is the adjoint of the equation, F and G are its fluxes without friction, and
-/// |H| is the absolute value of a Hessian. Throws OptionError where the fields are not in the solution, or not all at the
+/// Returns second derivatives per vertex of the isotropic cells, 0 elsewhere, whose integral of the errors of interpolation
+/// is that of the goal: the sum, over the equations of incompressible flow, of |dW*/dx| |H(F)| + |dW*/dy| |H(G)|, where W* is
+/// the adjoint of the equation, F and G are its fluxes without friction, and |H| is the absolute value of a Hessian. Throws OptionError where the fields are not in the solution, or not all at the
 /// same places.
 /// Source: A. Loseille, A. Dervieux, F. Alauzet, J. Comput. Phys. 229 (2010), section 4, for Euler's equations.
-std::vector<double> goal_curvatures(const Solution& solution, const GoalOptions& options);
+std::vector<Hessian> goal_hessians(const Solution& solution, const GoalOptions& options);
 
 /// Returns the same along walls, multiplied by a scale: second derivatives along the wall, from cell to cell of a row of the
 /// layer, as means over the height of each column.

@@ -25,17 +25,12 @@ using VertexLoop = std::vector<VertexId>;
 /// Sine of the angle of a corner that is none.
 constexpr double straight = 1e-9;
 
-/// Returns the edges that part isotropic cells from all else, with the isotropic cell on the left, as loops.
+/// Returns the edges of the border of isotropic cells as loops.
 std::vector<VertexLoop> border_loops_of(const Mesh& mesh, std::span<const char> isotropic) {
-    const mesh::Adjacency adjacency = mesh::find_adjacency(mesh);
-    const mesh::CellEdges edges(mesh);
     std::vector<VertexId> next(mesh.points.size());
-    for (std::size_t e = 0; e < edges.size(); ++e) {
-        if (!isotropic[edges.cell_of(e)]) continue;
-        const std::uint32_t twin = adjacency.twin[e];
-        if (twin != mesh::no_edge && isotropic[edges.cell_of(twin)]) continue;
-        assert(!next[edges.origin(e).index()].valid());
-        next[edges.origin(e).index()] = edges.target(e);
+    for (const Segment& edge : border_edges(mesh, isotropic)) {
+        assert(!next[edge.a.index()].valid());
+        next[edge.a.index()] = edge.b;
     }
     std::vector<VertexLoop> loops;
     for (std::size_t v = 0; v < next.size(); ++v) {
@@ -225,6 +220,19 @@ void for_each_fixed_border(const OuterRegion& region, Visit visit) {
 }
 
 }  // namespace
+
+std::vector<Segment> border_edges(const Mesh& mesh, std::span<const char> isotropic) {
+    const mesh::Adjacency adjacency = mesh::find_adjacency(mesh);
+    const mesh::CellEdges edges(mesh);
+    std::vector<Segment> border;
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+        if (!isotropic[edges.cell_of(e)]) continue;
+        const std::uint32_t twin = adjacency.twin[e];
+        if (twin == mesh::no_edge || !isotropic[edges.cell_of(twin)])
+            border.push_back({edges.origin(e), edges.target(e)});
+    }
+    return border;
+}
 
 std::vector<char> simple_region(const Mesh& mesh, std::vector<char> isotropic) {
     const RegionTrimmer trimmer(mesh);

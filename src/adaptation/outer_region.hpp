@@ -29,6 +29,9 @@ struct OuterRegion {
     std::size_t inside_vertices = 0;  ///< number of vertices in and below the layers, without the borders'
 };
 
+/// Returns the edges that part isotropic cells from all else, with the isotropic cell on the left.
+std::vector<Segment> border_edges(const Mesh& mesh, std::span<const char> isotropic);
+
 /// Takes cells from the isotropic ones until the rest hangs together over edges and has simple loops as borders: cells
 /// between others of the layer, and those at vertices where the region touches itself. Estimated regions need it.
 std::vector<char> simple_region(const Mesh& mesh, std::vector<char> isotropic);

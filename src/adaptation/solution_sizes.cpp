@@ -10,13 +10,12 @@
 #include <span>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include <lamina/error.hpp>
 
+#include "adaptation/counted_hessians.hpp"
 #include "adaptation/error_norm.hpp"
+#include "adaptation/factor_search.hpp"
 #include "adaptation/goal.hpp"
-#include "adaptation/hessian.hpp"
 #include "adaptation/outer_region.hpp"
 #include "adaptation/vertex_patches.hpp"
 #include "adaptation/wall_flow.hpp"
@@ -27,39 +26,6 @@ namespace lamina::adaptation {
 
 namespace {
 
-/// What is known about the vertices of the isotropic cells. Lists have one entry per vertex of the mesh.
-struct OuterVertices {
-    std::vector<double> area;  ///< a third, or a quarter, of the cells at the vertex; 0 inside the layer
-    std::vector<double> edge;  ///< mean length of the cells' edges there
-};
-
-OuterVertices measure_vertices(const Mesh& mesh, const VertexCells& cells) {
-    OuterVertices vertices{std::vector<double>(mesh.points.size(), 0.0), std::vector<double>(mesh.points.size(), 0.0)};
-    for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-        double lengths = 0, count = 0;
-        for (const std::uint32_t cell : cells.at(v)) {
-            const std::span<const VertexId> corners = cells.corners(cell);
-            double doubled = 0;
-            for (std::size_t i = 0; i < corners.size(); ++i) {
-                const Point a = mesh.points[corners[i].index()],
-                            b = mesh.points[corners[(i + 1) % corners.size()].index()];
-                doubled += cross(a - mesh.points[v], b - mesh.points[v]);
-                lengths += distance(a, b);
-                ++count;
-            }
-            vertices.area[v] += 0.5 * doubled / static_cast<double>(corners.size());
-        }
-        if (count > 0) vertices.edge[v] = lengths / count;
-    }
-    return vertices;
-}
-
-/// Second derivatives that count: those of a field, or of what a goal makes of all fields.
-struct Curvatures {
-    std::vector<double> lambda;  ///< per vertex of the mesh
-    double rounding = 0;         ///< smaller second differences are 0 but for rounding
-};
-
 /// What second derivatives ask for.
 struct CurvatureShape {
     /// Per vertex of the mesh: the size, scaled so that such sizes would make one triangle of area h^2. It is infinite
@@ -69,13 +35,14 @@ struct CurvatureShape {
     double error = 0;  ///< SolutionSizes::errors
 };
 
-CurvatureShape shape_of(const Curvatures& curvatures, const OuterVertices& vertices, const ErrorNorm& norm) {
-    CurvatureShape shape{std::vector<double>(curvatures.lambda.size(), HUGE_VAL)};
+CurvatureShape shape_of(const CountedHessians& hessians, const OuterVertices& vertices, const ErrorNorm& norm) {
+    CurvatureShape shape{std::vector<double>(hessians.at.size(), HUGE_VAL)};
     const double p = norm.power();
     double triangles = 0, error = 0;
     for (std::size_t v = 0; v < shape.size.size(); ++v) {
-        const double lambda = curvatures.lambda[v], difference = lambda * vertices.edge[v] * vertices.edge[v];
-        if (vertices.area[v] == 0 || !(difference > curvatures.rounding)) continue;
+        if (!vertices.counts(hessians, v)) continue;
+        const double lambda = largest_curvature(hessians.at[v]),
+                     difference = lambda * vertices.edge[v] * vertices.edge[v];
         shape.size[v] = norm.size(lambda);
         triangles += vertices.area[v] / (shape.size[v] * shape.size[v]);
         error += norm.power_on_triangle() * vertices.area[v] * core::pow_reproducible(difference, p);
@@ -88,32 +55,6 @@ CurvatureShape shape_of(const Curvatures& curvatures, const OuterVertices& verti
     return shape;
 }
 
-Curvatures curvatures_of(const Mesh& mesh, const SolutionField& field) {
-    constexpr double rounding = 1e-11;  // as a share of the largest value
-    double largest = 0;
-    for (const double value : field.values) largest = std::max(largest, std::abs(value));
-    Curvatures curvatures{{}, rounding * largest};
-    for (const Derivatives& at : recover_derivatives(mesh, field))
-        curvatures.lambda.push_back(largest_curvature(at.hessian));
-    return curvatures;
-}
-
-/// Returns the fields that are to be interpolated well: all but the components of the velocity that walls need, which stand
-/// last.
-std::span<const SolutionField> interpolated_fields(const Solution& solution, const SolutionSizeOptions& options) {
-    const std::size_t of_walls = options.walls ? 2 : 0;
-    return std::span(solution.fields).first(solution.fields.size() - std::min(solution.fields.size(), of_walls));
-}
-
-/// Returns the second derivatives of each field, or those of the goal.
-std::vector<Curvatures> all_curvatures(const Solution& solution, const SolutionSizeOptions& options) {
-    if (options.goal) return {{goal_curvatures(solution, *options.goal), 0}};
-    std::vector<Curvatures> all;
-    for (const SolutionField& field : interpolated_fields(solution, options))
-        all.push_back(curvatures_of(solution.mesh, field));
-    return all;
-}
-
 /// Makes the mesh of sizes from the isotropic cells.
 class SizesMaker {
 public:
@@ -121,11 +62,11 @@ public:
                const OuterVertices& vertices)
         : options_(options) {
         const Mesh& mesh = solution.mesh;
-        const ErrorNorm norm(options.goal ? 1 : options.norm);
+        const ErrorNorm norm(norm_of(options));
         shape_.assign(mesh.points.size(), HUGE_VAL);
         std::vector<double> scales;
-        for (const Curvatures& curvatures : all_curvatures(solution, options)) {
-            const CurvatureShape shape = shape_of(curvatures, vertices, norm);
+        for (const CountedHessians& hessians : counted_hessians(solution, options)) {
+            const CurvatureShape shape = shape_of(hessians, vertices, norm);
             for (std::size_t v = 0; v < shape_.size(); ++v) shape_[v] = std::min(shape_[v], shape.size[v]);
             errors_.push_back(shape.error);
             scales.push_back(shape.scale);
@@ -199,55 +140,6 @@ private:
     std::optional<WallSizes> walls_;                    ///< none: walls stay as they are
 };
 
-/// Finds the factor with which the mesh has the number of vertices asked for.
-class FactorSearch {
-public:
-    FactorSearch(double vertices, double first) : wanted_(vertices), factor_(first) {}
-
-    double factor() const { return factor_; }
-    double error() const { return error_; }
-    /// Notes the number of vertices with factor(), and chooses the next one.
-    void note(double vertices) {
-        constexpr double widening = 4;
-        error_ = vertices / wanted_ - 1;
-        const double at = core::log_reproducible(factor_), miss = core::log_reproducible(vertices / wanted_);
-        End &here = miss > 0 ? low_ : high_, &other = miss > 0 ? high_ : low_;
-        // An end that stays would hold the secant back (Illinois method).
-        if (last_ == &here) other.miss *= 0.5;
-        last_ = &here;
-        here = {at, miss, true};
-        if (!low_.known || !high_.known) {
-            // As many vertices as the inverse square of the factor, and some that do not depend on it: steps double.
-            step_ = std::clamp(step_ == 0 ? 0.7 * miss : 2 * step_, -core::log_reproducible(widening),
-                               core::log_reproducible(widening));
-            factor_ = core::exp_reproducible(at + step_);
-            return;
-        }
-        // The secant, kept off both ends.
-        const double share = std::clamp(low_.miss / (low_.miss - high_.miss), 0.1, 0.9);
-        factor_ = core::exp_reproducible(low_.at + share * (high_.at - low_.at));
-    }
-
-private:
-    struct End {
-        double at = 0, miss = 0;
-        bool known = false;
-    };
-    double wanted_, factor_, error_ = HUGE_VAL;
-    double step_ = 0;            ///< the last one, while only one end is known
-    End low_, high_;             ///< logarithms of factors with too many and too few vertices
-    const End* last_ = nullptr;  ///< the one that was replaced last
-};
-
-[[noreturn]] void refuse_number(const SolutionSizeOptions& options, std::size_t vertices) {
-    const bool too_many = static_cast<double>(vertices) > options.vertices;
-    throw OptionError(
-        "vertices",
-        fmt::format("cannot be {}: with sizes within a factor of {} of those of the solution's mesh, the "
-                    "next mesh has {} {}",
-                    options.vertices, options.max_change, too_many ? "no fewer than" : "no more than", vertices));
-}
-
 }  // namespace
 
 }  // namespace lamina::adaptation
@@ -257,11 +149,7 @@ namespace lamina {
 using namespace adaptation;
 
 SolutionSizes solution_sizes(const Solution& solution, const SolutionSizeOptions& options, const VertexCount& count) {
-    constexpr double good_enough = 0.01, acceptable = 0.02;
-    constexpr int most_rounds = 16;
     validate(options);
-    if (!options.goal && interpolated_fields(solution, options).empty())
-        throw OptionError("field", "is needed: sizes follow from fields of the solution");
     const std::vector<char> isotropic = simple_region(solution.mesh, isotropic_cells(solution.mesh));
     const OuterVertices vertices = measure_vertices(solution.mesh, VertexCells(solution.mesh, isotropic));
     SizesMaker maker(solution, options, isotropic, vertices);
@@ -277,18 +165,13 @@ SolutionSizes solution_sizes(const Solution& solution, const SolutionSizeOptions
     result.layer_vertices = result.vertices_before - maker.base().points.size();
     const double beyond = std::max(options.vertices - static_cast<double>(result.layer_vertices), 1.0);
     FactorSearch search(options.vertices, maker.factor_for(2 * beyond));
-    double best = HUGE_VAL;
-    while (result.rounds < most_rounds && best > good_enough) {
+    while (search.goes_on()) {
         SizedMesh sizes = maker.with(search.factor());
-        const std::size_t made = count ? count(sizes) : count_vertices(region, sizes);
-        ++result.rounds;
-        search.note(static_cast<double>(made));
-        if (std::abs(search.error()) >= best) continue;
-        best = std::abs(search.error());
-        result.vertices = made;
-        result.sizes = std::move(sizes);
+        if (search.note(count ? count(sizes) : count_vertices(region, sizes))) result.sizes = std::move(sizes);
     }
-    if (best > acceptable) refuse_number(options, result.vertices);
+    search.require_found(options);
+    result.vertices = search.vertices();
+    result.rounds = search.rounds();
     return result;
 }
 

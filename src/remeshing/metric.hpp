@@ -39,6 +39,11 @@ inline MetricTensor with_eigenvalues(const Spectrum& s, double large, double sma
 
 /// Returns whether a tensor is finite and positive definite, in numbers of doubles.
 bool is_metric(const MetricTensor& m);
+/// Returns M^(-1).
+inline MetricTensor inverse(const MetricTensor& m) {
+    const double scale = 1 / determinant(m);
+    return {scale * m.yy, -scale * m.xy, scale * m.xx};
+}
 /// Returns M^(-1/2), the tensor of the lengths that a metric asks for: its eigenvalues. Source for the root of a matrix of order 2:
 /// B. W. Levinger, Mathematics Magazine 53 (1980).
 inline MetricTensor sizes_of(const MetricTensor& m) {

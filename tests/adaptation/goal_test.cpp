@@ -55,12 +55,13 @@ TEST(Goal, CurvaturesAreGradientsOfTheAdjointTimesThoseOfTheFluxes) {
     };
     for (const auto& [flow, expected] : flows)
         for (const bool at_cells : {false, true}) {
-            const std::vector<double> curvatures =
-                adaptation::goal_curvatures(goal_solution(mesh, flow, at_cells), GoalOptions{});
-            ASSERT_EQ(curvatures.size(), mesh.points.size());
+            const std::vector<adaptation::Hessian> hessians =
+                adaptation::goal_hessians(goal_solution(mesh, flow, at_cells), GoalOptions{});
+            ASSERT_EQ(hessians.size(), mesh.points.size());
             // Products of linear fields are no values of a polynomial at the middles of cells but to rounding.
-            for (std::size_t v = 0; v < curvatures.size(); ++v)
-                ASSERT_NEAR(curvatures[v], outer[v] != 0 ? expected : 0, 1e-3) << v << " " << expected;
+            for (std::size_t v = 0; v < hessians.size(); ++v)
+                ASSERT_NEAR(adaptation::largest_curvature(hessians[v]), outer[v] != 0 ? expected : 0, 1e-3)
+                    << v << " " << expected;
         }
 }
 
@@ -114,10 +115,10 @@ TEST(Goal, RefusesFieldsThatAreMissingOrElsewhere) {
     const GoalFlow flow{zero, zero, zero, zero, zero, zero};
     Solution solution = goal_solution(mesh, flow, false);
     solution.fields[3] = goal_solution(mesh, flow, true).fields[3];
-    EXPECT_THROW(adaptation::goal_curvatures(solution, {}), OptionError);
+    EXPECT_THROW(adaptation::goal_hessians(solution, {}), OptionError);
     solution.fields.erase(solution.fields.begin() + 3);
-    EXPECT_THROW(adaptation::goal_curvatures(solution, {}), OptionError);
-    EXPECT_THROW(adaptation::goal_curvatures(goal_solution(mesh, flow, false), {.pressure = "P"}), OptionError);
+    EXPECT_THROW(adaptation::goal_hessians(solution, {}), OptionError);
+    EXPECT_THROW(adaptation::goal_hessians(goal_solution(mesh, flow, false), {.pressure = "P"}), OptionError);
 }
 
 /// By hand for the powers 1 and 2.
