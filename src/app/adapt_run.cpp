@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdio>
 #include <iterator>
@@ -20,6 +21,8 @@
 #include <lamina/files.hpp>
 #include <lamina/io.hpp>
 #include <lamina/page.hpp>
+#include <lamina/solution_metric.hpp>
+#include <lamina/transfer.hpp>
 
 #include "app/adapt_page.hpp"
 #include "app/fingerprint.hpp"
@@ -103,6 +106,23 @@ std::string rounds_table(const std::vector<AdaptRound>& rounds) {
             fmt::format("{},{},{},{},{},{},{},{},{:.1f}\n", i, vertices, cells, optional_text(forces.iterations),
                         forces.steady ? "yes" : "no", forces.cl, forces.cd, optional_text(forces.residual), seconds);
     }
+    return text;
+}
+
+/// Gives the cells of a mesh that OpenFOAM has numbered anew the regions that they have in another order. Their shapes do not
+/// tell stretched triangles from those of the layer.
+void copy_regions(const Mesh& mesh, Mesh& numbered_anew) {
+    SolutionField layer{"layer", true, {}};
+    for (const Region region : mesh.region) layer.values.push_back(region == Region::layer ? 1 : 0);
+    if (mesh.region.empty()) return;
+    for (const double share : transfer({mesh, {layer}}, numbered_anew).front().values)
+        numbered_anew.region.push_back(share > 0.5 ? Region::layer : Region::isotropic);
+}
+
+std::string errors_text(const SolutionSizes& sizes, const std::vector<std::string>& names) {
+    std::string text;
+    for (std::size_t f = 0; f < sizes.errors.size(); ++f)
+        text += fmt::format("{}{:.4g} in {}", f == 0 ? "" : ", ", sizes.errors[f], names[f]);
     return text;
 }
 
@@ -252,6 +272,7 @@ private:
         std::string text = fingerprint(case_) + settings_.identity;
         for (const std::string& field : settings_.fields) text += "\n" + field;
         text += fmt::format("\n{} {} {}", settings_.sizes.gradation, settings_.sizes.max_change, settings_.sizes.norm);
+        if (settings_.max_ratio) text += fmt::format(" {}", *settings_.max_ratio);
         std::vector<std::string> digits;
         for (int i = 0; i < settings_.rounds; ++i) {
             text += fmt::format("\n{}", wanted_vertices(static_cast<std::size_t>(i)));
@@ -331,17 +352,23 @@ private:
             options.keep_borders = false;
             for (const std::string& component : options.walls->components()) needed.push_back(component);
         }
-        const SolutionSizes made =
-            solution_sizes(solver_.read(folder_of(i - 1), needed), options, [&](const SizedMesh& sizes) {
-                return mesher_->make(std::make_shared<const SizedMesh>(sizes)).mesh.points.size();
-            });
-        std::string errors;
-        for (std::size_t f = 0; f < made.errors.size(); ++f)
-            errors += fmt::format("{}{:.4g} in {}", f == 0 ? "" : ", ", made.errors[f],
-                                  options.goal ? "the goal" : fields[f]);
-        say(fmt::format("round {}: error of the solution before, estimated beyond the layer: {}", i, errors));
+        Solution solution = solver_.read(folder_of(i - 1), needed);
+        if (settings_.max_ratio && solution.mesh.region.empty())
+            copy_regions(read_mesh(folder_of(i - 1) / "mesh.vtu"), solution.mesh);
+        const SolutionSizes made = solution_sizes(solution, options, [&](const SizedMesh& sizes) {
+            return mesher_->make(std::make_shared<const SizedMesh>(sizes)).mesh.points.size();
+        });
+        // The estimate is that of isotropic triangles.
+        if (i == 1 || !settings_.max_ratio)
+            say(fmt::format("round {}: error of the solution before, estimated beyond the layer: {}", i,
+                            errors_text(made, options.goal ? std::vector<std::string>{"the goal"} : fields)));
         write_sizes(made.sizes, folder / "sizes.vtu");
-        return mesher_->make(std::make_shared<const SizedMesh>(made.sizes));
+        MeshResult result = mesher_->make(std::make_shared<const SizedMesh>(made.sizes));
+        // Walls and layers are those of isotropic sizes, and so is the check of angles.
+        if (settings_.max_ratio)
+            result.mesh = remesh_to_solution(result.mesh, solution, options, *settings_.max_ratio).mesh;
+        assert(check_mesh(result.mesh).valid());
+        return result;
     }
 
     const AdaptSettings& settings_;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct AdaptSettings {
     double tolerance = 1e-3;  ///< forces have settled where they change by less, as a share, in two rounds in a row
     std::vector<std::string> fields;  ///< whose errors ask for smaller triangles; empty: those usual for the solver
     SolutionSizeOptions sizes{};      ///< vertices are those of the rounds
+    std::optional<double> max_ratio;  ///< of the lengths of triangles beyond the layer; empty: they are isotropic
     std::string identity;             ///< what else changes the outcome: the solver and its options
     bool dry_run = false;             ///< whether it is said what would be done, and nothing is
 };

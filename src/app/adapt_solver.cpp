@@ -15,6 +15,7 @@
 #include <lamina/error.hpp>
 #include <lamina/files.hpp>
 #include <lamina/io.hpp>
+#include <lamina/remesh.hpp>
 #include <lamina/transfer.hpp>
 
 #include "app/case_file.hpp"
@@ -30,6 +31,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* log_name = "log.solver";
+/// Solvers with unknowns at vertices take triangles as stretched as remesh() makes them.
+constexpr double most_ratio = RemeshOptions{}.max_ratio;
 
 void require_program(const std::string& word) {
     if (find_program(word).empty())
@@ -114,6 +117,10 @@ public:
         if (solver_ == FlowSolver::su2) return {"Mach", "Pressure"};
         return {"mag(U)", "p"};
     }
+    std::optional<double> usual_ratio() const override {
+        if (solver_ == FlowSolver::su2) return most_ratio;
+        return {};
+    }
     std::string velocity(const fs::path&) const override { return solver_ == FlowSolver::su2 ? "Momentum" : "U"; }
     std::string command() const override { return "Allrun"; }
     void prepare(MeshCase& mesh_case) override { prepare_case(solver_, options_, mesh_case); }
@@ -184,6 +191,7 @@ public:
 
     void require_programs() const override { require_program(words_.front()); }
     std::vector<std::string> usual_fields() const override { return {"Mach", "Pressure"}; }
+    std::optional<double> usual_ratio() const override { return {}; }
     std::string velocity(const fs::path& folder) const override {
         const std::vector<std::string> fields = solution_fields(solution_in(folder));
         for (const char* name : {"Velocity", "U", "Momentum"})

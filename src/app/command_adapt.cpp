@@ -3,12 +3,14 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <lamina/error.hpp>
+#include <lamina/remesh.hpp>
 
 #include "app/adapt_run.hpp"
 #include "app/commands.hpp"
@@ -22,7 +24,7 @@ namespace lamina::app {
 namespace {
 
 struct AdaptArguments {
-    std::string solver, folder, goal = "fields", turbulence;
+    std::string solver, folder, goal = "fields", turbulence, anisotropy;
     std::vector<double> sequence;
     std::map<std::string, std::string> sizes;  ///< values by the names of option_table<SolutionSizeOptions>()
     AdaptSettings settings;
@@ -43,6 +45,16 @@ std::optional<AdjointGoal> goal_of(const AdaptArguments& arguments, const MeshCa
                         is_su2 ? "cases of SU2 do not find" : "OpenFOAM finds in incompressible flow alone",
                         is_su2 ? "or openfoam as the solver" : "or leave --mach out"));
     return goal == "lift" ? AdjointGoal::lift : AdjointGoal::drag;
+}
+
+/// Returns the largest ratio of the lengths of triangles; nothing where they are isotropic.
+std::optional<double> ratio_of(const AdaptArguments& arguments, const AdaptSolver& solver) {
+    if (arguments.anisotropy.empty()) return solver.usual_ratio();
+    if (arguments.anisotropy == "none") return {};
+    const std::string origin = "option --anisotropy";
+    const double ratio = std::get<double>(value_of_text(OptionKind::number, {arguments.anisotropy}, origin));
+    require_in_range(numbers_from_to(1, RemeshOptions{}.max_ratio), ratio, origin);
+    return ratio;
 }
 
 void adapt(const AdaptArguments& arguments) {
@@ -70,6 +82,7 @@ void adapt(const AdaptArguments& arguments) {
     without_outputs.outputs.clear();
     for (const auto& [file, option] : files_beside_mesh) (without_outputs.*file).clear();
     const std::unique_ptr<AdaptSolver> solver = adapt_solver(arguments.solver, options);
+    settings.max_ratio = ratio_of(arguments, *solver);
     run_adapt(settings, without_outputs, *solver);
 }
 
@@ -135,6 +148,13 @@ void add_goal_options(CLI::App& command, AdaptArguments& arguments) {
         ->type_name("NAME[,NAME...]")
         ->group(group_of_adapt);
     add_table_option(command, option_table<SolutionSizeOptions>(), "max-change", arguments.sizes["max-change"])
+        ->group(group_of_adapt);
+    command
+        .add_option("--anisotropy", arguments.anisotropy,
+                    "largest ratio of the lengths of triangles beyond the layer, which are short where the fields "
+                    "bend; none: they "
+                    "are isotropic [su2: 1e6; else none]")
+        ->type_name("RATIO|none")
         ->group(group_of_adapt);
     add_table_option(command, option_table<SolverCaseOptions>(), "turbulence", arguments.turbulence)
         ->group(group_of_adapt);

@@ -91,6 +91,32 @@ TEST(AdaptCommand, WallsFollowTheSolutionWhereTheReynoldsNumberIsKnown) {
     EXPECT_NE(wall_vertices(after).first_height, wall_vertices(before).first_height);
 }
 
+TEST(AdaptCommand, TrianglesAreStretchedWhereThatIsAsked) {
+    const TemporaryFolder folder;
+    folder.write("so lve.sh", script(""));
+    // With 7,000 vertices the growth of sizes from the layer on leaves none over.
+    const auto stretched = [](std::vector<std::string> more) {
+        std::vector<std::string> arguments = adapt(more);
+        *std::find(arguments.begin(), arguments.end(), "7000") = "15000";
+        return arguments;
+    };
+    for (const char* goal : {"fields", "drag"}) {
+        const ProgramRun run = run_lamina(folder, stretched({"--anisotropy", "50", "--goal", goal}));
+        ASSERT_EQ(run.exit_code, 0) << run.err;
+        const Mesh mesh = read_mesh(folder / "loop/round_1/mesh.vtu");
+        const MeshCheck check = check_mesh(mesh);
+        EXPECT_EQ(check.defect_count, 0u);
+        EXPECT_GT(check.isotropic.angles_below_bound, 100u);
+        EXPECT_NEAR(double(mesh.points.size()), 15000, 0.02 * 15000);
+        const Solution start = read_solution(folder / "loop/round_1/start.vtu", {"Mach"});
+        EXPECT_EQ(start.fields[0].values.size(), mesh.points.size());
+        expect_refused(folder, stretched({"--goal", goal}), usage, "was made with other options");
+        std::filesystem::remove_all(folder / "loop");
+    }
+    expect_refused(folder, adapt({"--anisotropy", "much"}), usage, "--anisotropy");
+    expect_refused(folder, adapt({"--anisotropy", "0.5"}), usage, "--anisotropy");
+}
+
 TEST(AdaptCommand, AFailedRoundLeavesThoseBefore) {
     const TemporaryFolder folder;
     folder.write("so lve.sh", script("test ! -e start.vtu || exit 7\n"));
