@@ -1,0 +1,36 @@
+// Whether a cell of higher order is valid: the determinant of its Jacobian is positive everywhere in it. Proved by the
+// coefficients of the determinant in Bernstein's polynomials, between which all its values lie, on parts of the cell that
+// are halved until each is decided.
+// Source: A. Johnen, J.-F. Remacle, C. Geuzaine, Geometrical validity of curvilinear finite elements, J. Comput. Phys. 233
+// (2013), sections 3 and 4.
+#pragma once
+
+#include <span>
+
+#include <lamina/export.hpp>
+#include <lamina/point.hpp>
+
+namespace lamina::mesh {
+
+enum class CellVerdict {
+    valid,    ///< the determinant is positive in the whole closed cell
+    invalid,  ///< it is negative somewhere
+    unproved  ///< twelve halvings in each direction, or the precision of numbers, do not tell
+};
+
+/// What is proved of the determinant of a cell, by the coordinates of the reference cell of cell_lattice.hpp.
+struct JacobianBounds {
+    CellVerdict verdict = CellVerdict::unproved;
+    double lower = 0;  ///< no value of a valid cell is below this
+    double upper = 0;  ///< no value is above this
+
+    /// Returns a lower bound of the smallest value over the largest one; not positive unless the cell is valid.
+    double scaled() const { return verdict == CellVerdict::valid ? lower / upper : 0; }
+};
+
+/// Bounds the determinant of a cell with 3 or 4 corners, whose nodes are in the order of lattice_of_cell(). Coordinates are
+/// taken as they are; a bound of all rounding errors is taken off. Precondition: as many nodes as nodes_of_cell() says, with
+/// finite coordinates.
+LAMINA_EXPORT JacobianBounds bound_jacobian(unsigned corners, unsigned order, std::span<const Point> nodes);
+
+}  // namespace lamina::mesh

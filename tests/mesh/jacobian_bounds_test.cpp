@@ -1,0 +1,270 @@
+// Bounds of the determinants of cells of higher order, against samples and against rational arithmetic.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/random.hpp"
+#include "mesh/cell_lattice.hpp"
+#include "mesh/jacobian_bounds.hpp"
+
+namespace lamina::mesh {
+namespace {
+
+constexpr std::array<unsigned, 2> every_shape{3, 4};
+
+/// A fraction in lowest terms.
+struct Fraction {
+    __extension__ using Whole = __int128;
+    Whole over = 0, under = 1;
+
+    Fraction(long whole) : over(whole) {}
+    Fraction(Whole a, Whole b) {
+        Whole x = a < 0 ? -a : a, y = b < 0 ? -b : b;
+        while (y != 0) x = std::exchange(y, x % y);
+        over = (b < 0 ? -a : a) / x;
+        under = (b < 0 ? -b : b) / x;
+    }
+    friend Fraction operator+(Fraction a, Fraction b) {
+        return {a.over * b.under + b.over * a.under, a.under * b.under};
+    }
+    friend Fraction operator-(Fraction a, Fraction b) {
+        return {a.over * b.under - b.over * a.under, a.under * b.under};
+    }
+    friend Fraction operator*(Fraction a, Fraction b) { return {a.over * b.over, a.under * b.under}; }
+    friend Fraction operator/(Fraction a, Fraction b) { return {a.over * b.under, a.under * b.over}; }
+    explicit operator double() const { return static_cast<double>(over) / static_cast<double>(under); }
+};
+
+/// A function of one variable and its derivative.
+template <class Number>
+struct Value {
+    Number f, derivative;
+};
+
+/// Returns Lagrange's polynomial that is 1 at node i of 0, 1/p, ..., count/p and 0 at the others.
+template <class Number>
+Value<Number> lagrange_on(unsigned p, unsigned count, unsigned i, Number t) {
+    Value<Number> product{Number(1), Number(0)};
+    for (unsigned k = 0; k <= count; ++k) {
+        if (k == i) continue;
+        const Number slope = Number(static_cast<long>(p)) / Number(static_cast<long>(i) - static_cast<long>(k));
+        const Number factor = slope * (t - Number(static_cast<long>(k)) / Number(static_cast<long>(p)));
+        product = {product.f * factor, product.derivative * factor + product.f * slope};
+    }
+    return product;
+}
+
+template <class Number>
+struct Coordinates {
+    Number x, y;
+};
+
+/// Returns the determinant of a cell at a point, from products of Lagrange's polynomials.
+template <class Number>
+Number determinant_at(unsigned corners, unsigned p, const std::vector<Coordinates<Number>>& nodes, Number u, Number v) {
+    const std::span<const LatticePlace> lattice = lattice_of_cell(corners, p);
+    const Number zero(0);
+    Number xu = zero, xv = zero, yu = zero, yv = zero;
+    for (std::size_t n = 0; n < lattice.size(); ++n) {
+        const auto [i, j] = lattice[n];
+        Number du = zero, dv = zero;
+        if (corners == 4) {
+            const auto a = lagrange_on(p, p, i, u), b = lagrange_on(p, p, j, v);
+            du = a.derivative * b.f;
+            dv = a.f * b.derivative;
+        } else {
+            const unsigned k = p - i - j;
+            const auto a = lagrange_on(p, i, i, u), b = lagrange_on(p, j, j, v),
+                       c = lagrange_on(p, k, k, Number(1) - u - v);
+            du = b.f * (a.derivative * c.f - a.f * c.derivative);
+            dv = a.f * (b.derivative * c.f - b.f * c.derivative);
+        }
+        xu = xu + du * nodes[n].x;
+        xv = xv + dv * nodes[n].x;
+        yu = yu + du * nodes[n].y;
+        yv = yv + dv * nodes[n].y;
+    }
+    return xu * yv - yu * xv;
+}
+
+/// Calls f with the determinant at all points of a grid of so many steps.
+template <class Number, class F>
+void sample_determinant(unsigned corners, unsigned p, const std::vector<Coordinates<Number>>& nodes, long steps,
+                        F&& f) {
+    for (long i = 0; i <= steps; ++i)
+        for (long j = 0; j <= (corners == 3 ? steps - i : steps); ++j)
+            f(determinant_at(corners, p, nodes, Number(i) / Number(steps), Number(j) / Number(steps)));
+}
+
+std::vector<Point> points_of(const std::vector<Coordinates<double>>& nodes) {
+    std::vector<Point> points;
+    for (const auto& node : nodes) points.push_back({node.x, node.y});
+    return points;
+}
+
+/// Returns a cell of random shape, whose nodes are off their places by a random share of a step.
+std::vector<Coordinates<double>> random_cell(unsigned corners, unsigned p, core::Random& random) {
+    const double stretch = std::pow(10, random.real(-5, 0)), angle = random.real(0, 7), lean = random.real(-0.3, 0.3);
+    const double noise = random.real(0, 0.6) / p, c = std::cos(angle), s = std::sin(angle);
+    const Point origin{random.real(-3, 3), random.real(-3, 3)};
+    std::vector<Coordinates<double>> nodes;
+    for (const auto [i, j] : lattice_of_cell(corners, p)) {
+        const double u = static_cast<double>(i) / p + noise * random.real(-0.5, 0.5);
+        const double v = stretch * (static_cast<double>(j) / p + noise * random.real(-0.5, 0.5) + lean * u);
+        nodes.push_back({origin.x + c * u - s * v, origin.y + s * u + c * v});
+    }
+    return nodes;
+}
+
+TEST(JacobianBounds, HoldForSamplesOfRandomCells) {
+    core::Random random(1);
+    std::array<std::size_t, 3> verdicts{};
+    for (int round = 0; round < 600; ++round)
+        for (const unsigned corners : every_shape)
+            for (unsigned p = 1; p <= max_order; ++p) {
+                const auto nodes = random_cell(corners, p, random);
+                const JacobianBounds bounds = bound_jacobian(corners, p, points_of(nodes));
+                ++verdicts[static_cast<std::size_t>(bounds.verdict)];
+                double smallest = HUGE_VAL, largest = -HUGE_VAL;
+                sample_determinant(corners, p, nodes, 12, [&](double value) {
+                    smallest = std::min(smallest, value);
+                    largest = std::max(largest, value);
+                });
+                const double rounding = 1e-11;  // of the samples, in the longest edges
+                EXPECT_LE(largest, bounds.upper + rounding);
+                if (bounds.verdict == CellVerdict::valid) {
+                    EXPECT_GT(bounds.lower, 0);
+                    EXPECT_GE(smallest, bounds.lower - rounding);
+                } else if (bounds.verdict == CellVerdict::invalid) {
+                    EXPECT_LT(smallest, 0.1 * largest + rounding) << corners << " corners, order " << p;
+                }
+            }
+    EXPECT_GT(verdicts[0], 1500u);
+    EXPECT_GT(verdicts[1], 500u);
+    EXPECT_EQ(verdicts[2], 0u);
+}
+
+TEST(JacobianBounds, AgreeWithRationalArithmetic) {
+    core::Random random(2);
+    std::size_t valid = 0, invalid = 0;
+    for (int round = 0; round < 25; ++round)
+        for (const unsigned corners : every_shape)
+            for (unsigned p = 1; p <= max_order; ++p) {
+                std::vector<Coordinates<Fraction>> exact;
+                std::vector<Point> nodes;
+                const auto whole = [&](unsigned i) { return static_cast<long>(12 * i + random.below(9)) - 4; };
+                for (const auto [i, j] : lattice_of_cell(corners, p)) {
+                    const long x = whole(i), y = whole(j);
+                    exact.push_back({x, y});
+                    nodes.push_back({static_cast<double>(x), static_cast<double>(y)});
+                }
+                const JacobianBounds bounds = bound_jacobian(corners, p, nodes);
+                double smallest = HUGE_VAL, largest = -HUGE_VAL;
+                sample_determinant<Fraction>(corners, p, exact, 8, [&](Fraction value) {
+                    smallest = std::min(smallest, static_cast<double>(value));
+                    largest = std::max(largest, static_cast<double>(value));
+                });
+                EXPECT_LE(largest, bounds.upper);
+                // Whole coordinates make determinants that are 0 at a corner, which no rounding decides.
+                if (bounds.verdict == CellVerdict::unproved) {
+                    EXPECT_EQ(smallest, 0);
+                }
+                valid += bounds.verdict == CellVerdict::valid;
+                invalid += bounds.verdict == CellVerdict::invalid;
+                if (bounds.verdict == CellVerdict::valid) {
+                    EXPECT_GE(smallest, bounds.lower);
+                }
+                if (smallest < 0) {
+                    EXPECT_EQ(bounds.verdict, CellVerdict::invalid);
+                }
+            }
+    EXPECT_GT(valid, 50u);
+    EXPECT_GT(invalid, 20u);
+}
+
+/// Returns a cell with straight edges and evenly spaced nodes.
+std::vector<Point> straight_cell(unsigned corners, unsigned p, const std::array<Point, 4>& v) {
+    std::vector<Point> nodes;
+    for (const auto [i, j] : lattice_of_cell(corners, p)) {
+        const double s = static_cast<double>(i) / p, t = static_cast<double>(j) / p;
+        nodes.push_back(corners == 3 ? (1 - s - t) * v[0] + s * v[1] + t * v[2]
+                                     : (1 - t) * ((1 - s) * v[0] + s * v[1]) + t * ((1 - s) * v[3] + s * v[2]));
+    }
+    return nodes;
+}
+
+TEST(JacobianBounds, AreThoseOfTheCornersForStraightCells) {
+    const std::array<Point, 4> corners_at{{{0.1, 0}, {1, 0.1}, {0.9, 1.3}, {-0.2, 0.8}}};
+    const auto area = [&](std::size_t a, std::size_t b, std::size_t c) {
+        return cross(corners_at[b] - corners_at[a], corners_at[c] - corners_at[a]);
+    };
+    for (unsigned p = 1; p <= max_order; ++p) {
+        const JacobianBounds triangle = bound_jacobian(3, p, straight_cell(3, p, corners_at));
+        EXPECT_NEAR(triangle.lower, area(0, 1, 2), 1e-9);
+        EXPECT_NEAR(triangle.upper, area(0, 1, 2), 1e-9);
+        const JacobianBounds quad = bound_jacobian(4, p, straight_cell(4, p, corners_at));
+        const std::array<double, 4> areas{area(3, 0, 1), area(0, 1, 2), area(1, 2, 3), area(2, 3, 0)};
+        EXPECT_NEAR(quad.lower, *std::min_element(areas.begin(), areas.end()), 1e-9);
+        EXPECT_NEAR(quad.upper, *std::max_element(areas.begin(), areas.end()), 1e-9);
+    }
+}
+
+TEST(JacobianBounds, KnowInvalidCells) {
+    for (const unsigned corners : every_shape)
+        for (unsigned p = 1; p <= max_order; ++p) {
+            const std::array<Point, 4> square{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+            std::vector<Point> mirrored = straight_cell(corners, p, square);
+            for (Point& node : mirrored) node.x = -node.x;
+            EXPECT_EQ(bound_jacobian(corners, p, mirrored).verdict, CellVerdict::invalid);
+            const std::vector<Point> flat(nodes_of_cell(corners, p), Point{1, 2});
+            EXPECT_EQ(bound_jacobian(corners, p, flat).verdict, CellVerdict::unproved);
+            if (p == 1) continue;
+            // A node of the first edge, moved through the cell until the map folds there.
+            std::vector<Point> folded = straight_cell(corners, p, square);
+            folded[corners].y += 0.9;
+            EXPECT_EQ(bound_jacobian(corners, p, folded).verdict, CellVerdict::invalid) << corners << ' ' << p;
+        }
+    // The determinant of this parabola's sector vanishes at one corner and is positive elsewhere: 1 - 4 x 1/4.
+    std::vector<Point> touching = straight_cell(3, 2, {{{0, 0}, {1, 0}, {0, 1}, {}}});
+    touching[3].y = 0.25;
+    touching[5] = {0, 0.5};
+    EXPECT_EQ(bound_jacobian(3, 2, touching).verdict, CellVerdict::unproved);
+    touching[3].y = 0.2499;
+    EXPECT_EQ(bound_jacobian(3, 2, touching).verdict, CellVerdict::valid);
+    touching[3].y = 0.2501;
+    EXPECT_EQ(bound_jacobian(3, 2, touching).verdict, CellVerdict::invalid);
+}
+
+TEST(JacobianBounds, DoNotDependOnTheFirstCornerOrThePlace) {
+    core::Random random(3);
+    for (int round = 0; round < 100; ++round)
+        for (const unsigned corners : every_shape) {
+            const unsigned p = 2 + static_cast<unsigned>(random.below(3));
+            const std::vector<Point> nodes = points_of(random_cell(corners, p, random));
+            const JacobianBounds bounds = bound_jacobian(corners, p, nodes);
+            std::vector<Point> moved, turned(nodes.size());
+            for (const Point node : nodes) moved.push_back({-node.y, node.x});
+            const std::span<const LatticePlace> lattice = lattice_of_cell(corners, p);
+            for (std::size_t n = 0; n < nodes.size(); ++n) {
+                const auto [i, j] = lattice[n];
+                const LatticePlace next = corners == 3 ? LatticePlace{p - i - j, i} : LatticePlace{p - j, i};
+                const auto at = std::find_if(lattice.begin(), lattice.end(), [&](const LatticePlace& place) {
+                    return place.i == next.i && place.j == next.j;
+                });
+                turned[static_cast<std::size_t>(at - lattice.begin())] = nodes[n];
+            }
+            for (const std::vector<Point>& other : {moved, turned}) {
+                const JacobianBounds same = bound_jacobian(corners, p, other);
+                EXPECT_EQ(same.verdict, bounds.verdict);
+                EXPECT_NEAR(same.upper, bounds.upper, 1e-9);
+            }
+        }
+}
+
+}  // namespace
+}  // namespace lamina::mesh
