@@ -154,7 +154,8 @@ DeterminantRule make_rule(unsigned corners, unsigned p) {
     const CoefficientGrid map{corners, p, p};
     const bool is_triangle = corners == 3;
     const unsigned degree = is_triangle ? 2 * (p - 1) : 2 * p - 1;
-    DeterminantRule rule{.grid = {corners, degree, degree}};
+    DeterminantRule rule;
+    rule.grid = {corners, degree, degree};
     add_conversion(corners, p, map, rule);
     add_products(map, {corners, p - 1, p}, {corners, is_triangle ? p - 1 : p, p - 1}, rule);
     const double factor = std::pow(factorial(p), is_triangle ? 2 : 4);

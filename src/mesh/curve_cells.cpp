@@ -1,0 +1,464 @@
+// Source of the interpolation within cells: W. J. Gordon, C. A. Hall, Construction of curvilinear co-ordinate systems and
+// applications to mesh generation, Int. J. Numer. Meth. Eng. 7 (1973) for quadrilaterals; R. E. Barnhill, G. Birkhoff, W. J.
+// Gordon, Smooth interpolation in triangles, J. Approx. Theory 8 (1973) for triangles. Bends that go up the columns of a
+// boundary layer: D. Moxey, M. D. Green, S. J. Sherwin, J. Peiro, An isoparametric approach to high-order curvilinear
+// boundary-layer meshing, Comput. Methods Appl. Mech. Eng. 283 (2015), where cells are parts of one curved cell likewise.
+#include "mesh/curve_cells.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <lamina/error.hpp>
+
+#include "core/parallel.hpp"
+#include "mesh/cell_text.hpp"
+#include "mesh/curved_nodes.hpp"
+#include "mesh/jacobian_bounds.hpp"
+
+namespace lamina::mesh {
+
+namespace {
+
+constexpr std::uint32_t no_bend = 0xffffffff;
+
+/// The place of a vertex in a column: on its side where the wall's edge begins (u = 0) or ends (u = 1), and how high.
+struct ColumnPlace {
+    bool at_end = false;
+    double height = 0;
+};
+
+/// An edge from one side of a column to the other. It begins at the side where u = 0.
+struct Front {
+    std::uint32_t edge;  ///< directed, with the rest of the column on its left
+    double begin_height = 0, end_height = 0;
+};
+
+/// A cell between two fronts of a column.
+struct ColumnCell {
+    std::uint32_t cell;
+    std::array<ColumnPlace, 4> corners;
+};
+
+/// What the edge of a wall bends.
+struct BentColumn {
+    std::vector<Front> fronts;                ///< from the wall's edge up
+    std::vector<ColumnCell> cells;            ///< between them
+    double height = 0;                        ///< where the bend ends
+    std::array<Point, max_order + 1> bend{};  ///< at the nodes of the wall's edge, from u = 0 to 1; 0 at both
+};
+
+// ---- columns ---------------------------------------------------------------------------------------------------------
+
+/// Follows columns from the edges of walls.
+class ColumnSearch {
+public:
+    ColumnSearch(const MeshView& mesh, const Adjacency& adjacency, const CellColumnNumbers& columns)
+        : mesh_(mesh), cells_(mesh), adjacency_(adjacency), columns_(columns) {}
+
+    /// Returns the column over an edge of a wall, without its bend.
+    BentColumn follow(std::uint32_t wall) const {
+        BentColumn column;
+        column.fronts.push_back({wall});
+        const std::uint32_t number = columns_.of(mesh_, cells_.cell_of(wall));
+        const Point begin = at(cells_.origin(wall)), end = at(cells_.target(wall));
+        std::uint32_t edge = wall;
+        while (number != CellColumnNumbers::none) {
+            const std::optional<Front> next = front_beyond(column.fronts.back(), number, begin, end, column.cells);
+            if (!next) break;
+            edge = adjacency_.twin[next->edge];
+            column.fronts.push_back({edge, next->begin_height, next->end_height});
+            if (edge == no_edge) break;
+        }
+        const Front& top = column.fronts.back();
+        column.height = std::max(top.begin_height, top.end_height);
+        if (edge == no_edge)
+            column.fronts.pop_back();
+        else if (cells_.corners(cells_.cell_of(edge)) == 3)
+            column.height += height_of_triangle(edge);
+        return column;
+    }
+
+private:
+    Point at(VertexId v) const { return mesh_.points[v.index()]; }
+    std::uint32_t edge_after(std::uint32_t edge, std::size_t steps) const {
+        const std::size_t cell = cells_.cell_of(edge), first = cells_.first(cell), n = cells_.corners(cell);
+        return static_cast<std::uint32_t>(first + (edge - first + steps) % n);
+    }
+    double height_of_triangle(std::uint32_t edge) const {
+        const Point a = at(cells_.origin(edge)), b = at(cells_.target(edge));
+        return cross(b - a, at(cells_.target(edge_after(edge, 1))) - a) / distance(a, b);
+    }
+    /// What is across an edge, in the order in which a column goes on there: another column is behind a ray.
+    enum class Across { other_column, no_column, column };
+    Across across(std::uint32_t edge, std::uint32_t number) const {
+        const std::uint32_t twin = adjacency_.twin[edge];
+        const std::uint32_t beyond =
+            twin == no_edge ? CellColumnNumbers::none : columns_.of(mesh_, cells_.cell_of(twin));
+        if (beyond == number) return Across::column;
+        return beyond == CellColumnNumbers::none ? Across::no_column : Across::other_column;
+    }
+
+    /// Returns the edge on the far side of the cell beyond a front, as an edge of that cell, and adds the cell. A column goes on
+    /// through a quadrilateral, and through a triangle across the edge that is not on a ray:
+    ///
+    ///      4-----3       4-----3      The front 1-2 is followed by 4-3 through the quadrilateral. Through triangles it is
+    ///      |     |       |  .  |      followed by 1-3, since the cell across 2-3 is of another column, and then by 4-3.
+    ///      1-----2       1-----2
+    ///
+    /// Returns nothing where the column ends, or where both edges of a triangle are alike.
+    std::optional<Front> front_beyond(const Front& front, std::uint32_t number, Point begin, Point end,
+                                      std::vector<ColumnCell>& cells) const {
+        const auto cell = static_cast<std::uint32_t>(cells_.cell_of(front.edge));
+        if (columns_.of(mesh_, cell) != number) return {};
+        const std::size_t corner = front.edge - cells_.first(cell), n = cells_.corners(cell);
+        ColumnCell next{cell, {}};
+        const auto place = [&](std::size_t steps) -> ColumnPlace& { return next.corners[(corner + steps) % n]; };
+        place(0) = {false, front.begin_height};
+        place(1) = {true, front.end_height};
+        const auto height_at = [&](std::size_t steps, Point foot) {
+            return distance(foot, at(cells_.corner(cell, (corner + steps) % n)));
+        };
+        Front beyond{};
+        if (n == 4) {
+            place(2) = {true, height_at(2, end)};
+            place(3) = {false, height_at(3, begin)};
+            beyond = {edge_after(front.edge, 2), place(3).height, place(2).height};
+        } else {
+            const Across after = across(edge_after(front.edge, 1), number),
+                         before = across(edge_after(front.edge, 2), number);
+            if (after == before) return {};
+            const bool across_end = before > after;  // the third corner is on the ray where the front ends
+            place(2) = across_end ? ColumnPlace{true, height_at(2, end)} : ColumnPlace{false, height_at(2, begin)};
+            beyond = across_end ? Front{edge_after(front.edge, 2), front.begin_height, place(2).height}
+                                : Front{edge_after(front.edge, 1), place(2).height, front.end_height};
+        }
+        cells.push_back(next);
+        return beyond;
+    }
+
+    MeshView mesh_;
+    CellEdges cells_;
+    const Adjacency& adjacency_;
+    CellColumnNumbers columns_;
+};
+
+/// Returns the share of its bend that a column has at a height.
+double share_at(const BentColumn& column, double height) { return std::max(0.0, 1 - height / column.height); }
+
+// ---- nodes -----------------------------------------------------------------------------------------------------------
+
+/// Numbers of the nodes: those of edges first, edge by edge, then those within cells.
+class NodeNumbers {
+public:
+    NodeNumbers(const MeshView& mesh, const Adjacency& adjacency, unsigned order)
+        : cells_(mesh), adjacency_(adjacency), within_edge_(order - 1), vertices_(mesh.points.size()) {
+        edge_.resize(cells_.size());
+        for (std::uint32_t e = 0; e < cells_.size(); ++e) {
+            const std::uint32_t twin = adjacency.twin[e];
+            edge_[e] = twin != no_edge && twin < e ? edge_[twin] : edges_++;
+        }
+        for (const std::size_t corners : {3, 4})
+            within_cell_[corners - 3] = nodes_of_cell(static_cast<unsigned>(corners), order) - corners * order;
+        const std::size_t nodes = first_of_cell(cells_.cells());
+        if (vertices_ + nodes >= VertexId{}.value) throw MeshError("more than 2^32 nodes of curved cells");
+        count_ = nodes;
+    }
+
+    std::size_t count() const { return count_; }
+    /// Returns the first node within a cell.
+    std::size_t first_of_cell(std::size_t cell) const {
+        const std::size_t triangles = std::min(cell, cells_.cells() - quads());
+        return std::size_t{edges_} * within_edge_ + triangles * within_cell_[0] + (cell - triangles) * within_cell_[1];
+    }
+    std::size_t within_cell(std::size_t cell) const { return within_cell_[cells_.corners(cell) - 3]; }
+    /// Returns node k, from 0, within a directed edge.
+    std::size_t of_edge(std::uint32_t edge, std::size_t k) const {
+        return edge_[edge] * within_edge_ + (is_owner(edge) ? k : within_edge_ - 1 - k);
+    }
+    /// Returns whether the nodes of an edge are numbered in its direction.
+    bool is_owner(std::uint32_t edge) const {
+        const std::uint32_t twin = adjacency_.twin[edge];
+        return twin == no_edge || edge < twin;
+    }
+    VertexId id(std::size_t node) const { return VertexId(vertices_ + node); }
+    const CellEdges& cells() const { return cells_; }
+
+private:
+    std::size_t quads() const { return cells_.size() - 3 * cells_.cells(); }
+
+    CellEdges cells_;
+    const Adjacency& adjacency_;
+    std::size_t within_edge_, vertices_, count_ = 0;
+    std::array<std::size_t, 2> within_cell_{};
+    std::vector<std::uint32_t> edge_;
+    std::uint32_t edges_ = 0;
+};
+
+/// Returns the lists of nodes of all cells and markers, without places.
+CurvedNodes number_nodes(const MeshView& mesh, const NodeNumbers& numbers, unsigned order) {
+    CurvedNodes nodes;
+    nodes.order = order;
+    const CellEdges& cells = numbers.cells();
+    nodes.points.resize(numbers.count());
+    for (std::size_t cell = 0; cell < cells.cells(); ++cell) {
+        std::vector<VertexId>& list = cells.corners(cell) == 3 ? nodes.triangle_nodes : nodes.quad_nodes;
+        for (std::size_t e = cells.first(cell); e < cells.first(cell + 1); ++e)
+            for (std::size_t k = 0; k + 1 < order; ++k)
+                list.push_back(numbers.id(numbers.of_edge(static_cast<std::uint32_t>(e), k)));
+        for (std::size_t i = 0; i < numbers.within_cell(cell); ++i)
+            list.push_back(numbers.id(numbers.first_of_cell(cell) + i));
+    }
+    std::vector<Segment> edges;
+    for (const Marker& marker : mesh.markers) edges.insert(edges.end(), marker.edges.begin(), marker.edges.end());
+    const std::vector<std::uint32_t> found = find_edges(mesh, edges);
+    for (std::size_t i = 0; i < edges.size(); ++i)
+        for (std::size_t k = 0; k + 1 < order; ++k)
+            nodes.marker_nodes.push_back(
+                numbers.id(numbers.of_edge(found[i], cells.origin(found[i]) == edges[i].a ? k : order - 2 - k)));
+    return nodes;
+}
+
+/// Places the nodes of cells. Edges come first; what moves them moves the cells on both sides.
+class NodePlacer {
+public:
+    NodePlacer(const MeshView& mesh, const NodeNumbers& numbers, std::span<const BentColumn> columns, unsigned order)
+        : mesh_(mesh), numbers_(numbers), cells_(mesh), columns_(columns), order_(order) {
+        bend_of_edge_.resize(cells_.size(), {no_bend, 0});
+        column_of_cell_.resize(cells_.cells(), {no_bend, 0});
+        for (std::uint32_t c = 0; c < columns.size(); ++c) {
+            for (std::uint32_t f = 0; f < columns[c].fronts.size(); ++f)
+                bend_of_edge_[columns[c].fronts[f].edge] = {c, f};
+            for (std::uint32_t k = 0; k < columns[c].cells.size(); ++k)
+                column_of_cell_[columns[c].cells[k].cell] = {c, k};
+        }
+    }
+
+    /// Places all nodes of edges, bends included.
+    void place_edges(const Adjacency& adjacency, std::vector<Point>& places) const {
+        core::parallel_for(cells_.size(), cells_per_block, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t e = begin; e < end; ++e) place_edge(static_cast<std::uint32_t>(e), adjacency, places);
+        });
+    }
+    /// Places the nodes within all cells.
+    void place_within_cells(std::vector<Point>& places) const {
+        core::parallel_for(cells_.cells(), cells_per_block, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t cell = begin; cell < end; ++cell) place_within_cell(cell, places);
+        });
+    }
+    /// Calls f with the number of each column that bends a cell.
+    template <class F>
+    void for_each_column(std::size_t cell, const Adjacency& adjacency, F&& f) const {
+        if (column_of_cell_[cell].column != no_bend) f(column_of_cell_[cell].column);
+        for (std::size_t e = cells_.first(cell); e < cells_.first(cell + 1); ++e)
+            for (const std::uint32_t edge : {static_cast<std::uint32_t>(e), adjacency.twin[e]})
+                if (edge != no_edge && bend_of_edge_[edge].column != no_bend) f(bend_of_edge_[edge].column);
+    }
+
+private:
+    /// A column, and the front or the cell of it.
+    struct InColumn {
+        std::uint32_t column, index;
+    };
+
+    Point at(VertexId v) const { return mesh_.points[v.index()]; }
+    void place_edge(std::uint32_t edge, const Adjacency& adjacency, std::vector<Point>& places) const {
+        if (!numbers_.is_owner(edge)) return;
+        const Point a = at(cells_.origin(edge)), b = at(cells_.target(edge));
+        const std::uint32_t twin = adjacency.twin[edge];
+        const bool is_reversed = bend_of_edge_[edge].column == no_bend && twin != no_edge;
+        const InColumn bent = bend_of_edge_[is_reversed ? twin : edge];
+        for (unsigned k = 1; k < order_; ++k) {
+            Point node = a + (static_cast<double>(k) / order_) * (b - a);
+            if (bent.column != no_bend) node = node + bend_of_front(bent, is_reversed ? order_ - k : k);
+            places[numbers_.of_edge(edge, k - 1)] = node;
+        }
+    }
+    Point bend_of_front(const InColumn& bent, unsigned k) const {
+        const BentColumn& column = columns_[bent.column];
+        const Front& front = column.fronts[bent.index];
+        const double u = static_cast<double>(k) / order_;
+        return share_at(column, (1 - u) * front.begin_height + u * front.end_height) * column.bend[k];
+    }
+
+    void place_within_cell(std::size_t cell, std::vector<Point>& places) const {
+        const auto corners = static_cast<unsigned>(cells_.corners(cell));
+        const std::span<const LatticePlace> lattice = lattice_of_cell(corners, order_);
+        const std::size_t first = numbers_.first_of_cell(cell);
+        const std::size_t border = std::size_t{corners} * order_;
+        const InColumn in = column_of_cell_[cell];
+        for (std::size_t i = border; i < lattice.size(); ++i) {
+            const std::array<double, 4> weights = corner_weights(corners, lattice[i]);
+            Point node{0, 0};
+            for (std::size_t c = 0; c < corners; ++c) node = node + weights[c] * at(cells_.corner(cell, c));
+            places[first + i - border] =
+                node + (in.column != no_bend ? bend_in_column(in, corners, weights)
+                                             : bend_between_edges(cell, corners, lattice[i], places));
+        }
+    }
+    /// Returns how much of each corner a node of the straight cell is.
+    std::array<double, 4> corner_weights(unsigned corners, const LatticePlace& place) const {
+        const double s = static_cast<double>(place.i) / order_, t = static_cast<double>(place.j) / order_;
+        if (corners == 3) return {static_cast<double>(order_ - place.i - place.j) / order_, s, t, 0};
+        return {(1 - s) * (1 - t), s * (1 - t), s * t, (1 - s) * t};
+    }
+    /// Returns the bend of a node within a cell of a column, where u is a multiple of 1 / p: its corners have 0 and 1.
+    Point bend_in_column(const InColumn& in, unsigned corners, const std::array<double, 4>& weights) const {
+        const BentColumn& column = columns_[in.column];
+        double u = 0, height = 0;
+        for (std::size_t c = 0; c < corners; ++c) {
+            const ColumnPlace& place = column.cells[in.index].corners[c];
+            u += place.at_end ? weights[c] : 0;
+            height += weights[c] * place.height;
+        }
+        return share_at(column, height) * column.bend[static_cast<std::size_t>(std::lround(u * order_))];
+    }
+    /// Returns the bend of a node within a cell by transfinite interpolation of those of its edges.
+    Point bend_between_edges(std::size_t cell, unsigned corners, const LatticePlace& place,
+                             const std::vector<Point>& places) const {
+        const unsigned p = order_, i = place.i, j = place.j;
+        const auto bend = [&](std::size_t edge, unsigned k) {
+            const auto e = static_cast<std::uint32_t>(cells_.first(cell) + edge);
+            const Point a = at(cells_.origin(e)), b = at(cells_.target(e));
+            return places[numbers_.of_edge(e, k - 1)] - (a + (static_cast<double>(k) / p) * (b - a));
+        };
+        if (corners == 4) {
+            const double s = static_cast<double>(i) / p, t = static_cast<double>(j) / p;
+            return (1 - t) * bend(0, i) + s * bend(1, j) + t * bend(2, p - i) + (1 - s) * bend(3, p - j);
+        }
+        // Half the sum of the interpolations along the lines parallel to each edge; bends vanish at corners.
+        const unsigned k = p - i - j;
+        const auto along = [](unsigned from, unsigned to, Point a, Point b) {
+            const double share = static_cast<double>(to) / (from + to);
+            return (1 - share) * a + share * b;
+        };
+        const Point parallel_to_first = along(k, i, bend(2, p - j), bend(1, j));  // k + i is constant along it
+        const Point parallel_to_second = along(i, j, bend(0, i + j), bend(2, k));
+        const Point parallel_to_third = along(j, k, bend(1, p - i), bend(0, i));
+        return 0.5 * (parallel_to_first + parallel_to_second + parallel_to_third);
+    }
+
+    MeshView mesh_;
+    const NodeNumbers& numbers_;
+    CellEdges cells_;
+    std::span<const BentColumn> columns_;
+    unsigned order_;
+    std::vector<InColumn> bend_of_edge_, column_of_cell_;
+};
+
+// ---- walls -----------------------------------------------------------------------------------------------------------
+
+/// Sets the bend of a column to a share of that of the wall's curve.
+void set_bend(BentColumn& column, const MeshView& mesh, const WallCurve& wall, unsigned order, double share) {
+    const Point a = mesh.points[wall.edge.a.index()], b = mesh.points[wall.edge.b.index()];
+    for (unsigned k = 1; k < order; ++k)
+        column.bend[k] = share * (wall.between[2 * k - 1] - (a + (static_cast<double>(k) / order) * (b - a)));
+}
+
+/// Returns the point of an edge of order p, from its nodes, at the parameter t.
+Point on_edge(std::span<const Point> nodes, double t) {
+    const auto p = static_cast<double>(nodes.size() - 1);
+    Point sum{0, 0};
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        double factor = 1;
+        for (std::size_t k = 0; k < nodes.size(); ++k)
+            if (k != i) factor *= (p * t - static_cast<double>(k)) / (static_cast<double>(i) - static_cast<double>(k));
+        sum = sum + factor * nodes[i];
+    }
+    return sum;
+}
+
+/// Returns how far an edge of a wall is off the curve, at the nodes and halfway between them.
+double distance_from_curve(const MeshView& mesh, const WallCurve& wall, const BentColumn& column, unsigned order) {
+    const Point a = mesh.points[wall.edge.a.index()], b = mesh.points[wall.edge.b.index()];
+    std::array<Point, max_order + 1> nodes{};
+    for (unsigned k = 0; k <= order; ++k) nodes[k] = a + (static_cast<double>(k) / order) * (b - a) + column.bend[k];
+    double largest = 0;
+    for (std::size_t i = 0; i < wall.between.size(); ++i)
+        largest = std::max(largest, distance(wall.between[i], on_edge(std::span(nodes).first(order + 1),
+                                                                      static_cast<double>(i + 1) / (2.0 * order))));
+    return largest;
+}
+
+/// Returns the cells that are not proved valid, ascending.
+std::vector<std::size_t> cells_not_proved(const MeshView& mesh, const CurvedNodes& nodes) {
+    const CellEdges cells(mesh);
+    const auto blocks = core::parallel_blocks(cells.cells(), cells_per_block, [&](std::size_t begin, std::size_t end) {
+        std::vector<std::size_t> found;
+        CellNodes places;
+        for (std::size_t cell = begin; cell < end; ++cell)
+            if (bound_jacobian(static_cast<unsigned>(cells.corners(cell)), nodes.order,
+                               gather_nodes(mesh, nodes, cell, places))
+                    .verdict != CellVerdict::valid)
+                found.push_back(cell);
+        return found;
+    });
+    std::vector<std::size_t> all;
+    for (const auto& block : blocks) all.insert(all.end(), block.begin(), block.end());
+    return all;
+}
+
+}  // namespace
+
+std::uint32_t CellColumnNumbers::of(const MeshView& mesh, std::size_t cell) const {
+    const std::size_t triangles = mesh.triangles.size();
+    if (columns.size() < mesh.quads.size()) return none;
+    const std::size_t in_triangles = columns.size() - mesh.quads.size();
+    if (cell >= triangles) return columns[in_triangles + cell - triangles];
+    return cell < in_triangles ? columns[cell] : none;
+}
+
+CurvedCells curve_cells(const MeshView& mesh, unsigned order, std::span<const WallCurve> walls,
+                        const CellColumnNumbers& numbers_of_columns) {
+    constexpr int max_halvings_of_bend = 6;
+    const Adjacency adjacency = find_adjacency(mesh);
+    const ColumnSearch search(mesh, adjacency, numbers_of_columns);
+    std::vector<Segment> edges;
+    for (const WallCurve& wall : walls) edges.push_back(wall.edge);
+    const std::vector<std::uint32_t> found = find_edges(mesh, edges);
+    std::vector<BentColumn> columns(walls.size());
+    core::parallel_for(walls.size(), 64, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t w = begin; w < end; ++w) {
+            columns[w] = search.follow(found[w]);
+            set_bend(columns[w], mesh, walls[w], order, 1);
+        }
+    });
+
+    const NodeNumbers numbers(mesh, adjacency, order);
+    CurvedCells curved{number_nodes(mesh, numbers, order), {}};
+    const NodePlacer placer(mesh, numbers, columns, order);
+    std::vector<int> halvings(walls.size());
+    for (;;) {
+        placer.place_edges(adjacency, curved.nodes.points);
+        placer.place_within_cells(curved.nodes.points);
+        const std::vector<std::size_t> cells = cells_not_proved(mesh, curved.nodes);
+        if (cells.empty()) break;
+        std::vector<std::uint32_t> at_fault;
+        for (const std::size_t cell : cells)
+            placer.for_each_column(cell, adjacency, [&](std::uint32_t c) { at_fault.push_back(c); });
+        std::sort(at_fault.begin(), at_fault.end());
+        at_fault.erase(std::unique(at_fault.begin(), at_fault.end()), at_fault.end());
+        std::erase_if(at_fault, [&](std::uint32_t c) { return halvings[c] == max_halvings_of_bend; });
+        if (at_fault.empty())
+            throw MeshError(
+                fmt::format("the cells of order {} cannot be proved valid: {}", order, cell_text(mesh, cells.front())),
+                mesh.points[CellEdges(mesh).corner(cells.front(), 0).index()]);
+        for (const std::uint32_t c : at_fault) {
+            const double share = ++halvings[c] == max_halvings_of_bend ? 0 : std::ldexp(1.0, -halvings[c]);
+            set_bend(columns[c], mesh, walls[c], order, share);
+        }
+    }
+    for (std::size_t w = 0; w < walls.size(); ++w) {
+        const double off = distance_from_curve(mesh, walls[w], columns[w], order);
+        ++(halvings[w] > 0 ? curved.summary.reduced_edges : curved.summary.curved_edges);
+        double& largest = halvings[w] > 0 ? curved.summary.reduced_distance : curved.summary.wall_distance;
+        largest = std::max(largest, off);
+    }
+    return curved;
+}
+
+}  // namespace lamina::mesh

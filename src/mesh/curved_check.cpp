@@ -1,0 +1,162 @@
+// check_curved(): whether the lists of nodes fit the mesh, and whether each cell is proved valid.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <lamina/curved_mesh.hpp>
+
+#include "core/parallel.hpp"
+#include "mesh/cell_text.hpp"
+#include "mesh/curved_nodes.hpp"
+#include "mesh/defects.hpp"
+#include "mesh/jacobian_bounds.hpp"
+
+namespace lamina::mesh {
+
+namespace {
+
+/// Returns whether all lists have the lengths that the mesh asks for, and no number is out of range.
+bool check_lists(const MeshView& mesh, const CurvedNodes& nodes, DefectList& defects) {
+    const auto fail = [&](const std::string& what) {
+        defects.add([&] { return MeshDefect{what, {}}; });
+        return false;
+    };
+    if (nodes.order < 1 || nodes.order > max_cell_order) return fail(fmt::format("order {}", nodes.order));
+    std::size_t edges = 0;
+    for (const Marker& marker : mesh.markers) edges += marker.edges.size();
+    if (nodes.triangle_nodes.size() != mesh.triangles.size() * (nodes_of_cell(3, nodes.order) - 3) ||
+        nodes.quad_nodes.size() != mesh.quads.size() * (nodes_of_cell(4, nodes.order) - 4) ||
+        nodes.marker_nodes.size() != edges * (nodes.order - 1))
+        return fail("a list of nodes does not have the length that the order of the cells asks for");
+    for (const auto* list : {&nodes.triangle_nodes, &nodes.quad_nodes, &nodes.marker_nodes})
+        for (const VertexId v : *list)
+            if (v.index() < mesh.points.size() || v.index() >= mesh.points.size() + nodes.points.size())
+                return fail(fmt::format("node {} is out of range", v.value));
+    for (const Point p : nodes.points)
+        if (!std::isfinite(p.x) || !std::isfinite(p.y)) return fail("a node without finite coordinates");
+    return true;
+}
+
+/// Returns whether the nodes within an edge of a cell are those of `other`, from its end to its begin.
+bool are_reversed(std::span<const VertexId> nodes, std::span<const VertexId> other) {
+    return std::equal(nodes.begin(), nodes.end(), other.rbegin(), other.rend());
+}
+
+/// Reports edges whose two cells, or whose cell and marker, do not have the same nodes.
+void check_common_nodes(const MeshView& mesh, const CurvedNodes& nodes, DefectList& defects) {
+    const CellEdges cells(mesh);
+    const std::size_t within = nodes.order - 1;
+    const auto nodes_of_edge = [&](std::uint32_t edge) {
+        const std::size_t cell = cells.cell_of(edge);
+        return inner_nodes(mesh, nodes, cell).subspan((edge - cells.first(cell)) * within, within);
+    };
+    const auto report = [&](std::size_t edge) {
+        defects.add([&] {
+            const Segment ends{cells.origin(edge), cells.target(edge)};
+            return MeshDefect{"edge " + edge_text(ends) + " has other nodes on its other side",
+                              mesh.points[ends.a.index()]};
+        });
+    };
+    const Adjacency adjacency = find_adjacency(mesh);
+    for (std::uint32_t edge = 0; edge < cells.size(); ++edge) {
+        const std::uint32_t twin = adjacency.twin[edge];
+        if (twin != no_edge && edge < twin && !are_reversed(nodes_of_edge(edge), nodes_of_edge(twin))) report(edge);
+    }
+    std::vector<Segment> of_markers;
+    for (const Marker& marker : mesh.markers)
+        of_markers.insert(of_markers.end(), marker.edges.begin(), marker.edges.end());
+    const std::vector<std::uint32_t> found = find_edges(mesh, of_markers);
+    for (std::size_t i = 0; i < of_markers.size(); ++i) {
+        const std::uint32_t edge = found[i];
+        if (edge == no_edge) continue;  // check_mesh() reports it
+        const auto own = std::span<const VertexId>(nodes.marker_nodes).subspan(i * within, within);
+        const auto of_cell = nodes_of_edge(edge);
+        const bool is_same = cells.origin(edge) == of_markers[i].a
+                                 ? std::equal(own.begin(), own.end(), of_cell.begin(), of_cell.end())
+                                 : are_reversed(own, of_cell);
+        if (!is_same) report(edge);
+    }
+}
+
+/// What is proved of a block of cells.
+struct ProvedCells {
+    static constexpr std::size_t bins = 100;
+
+    DefectList defects;
+    std::size_t invalid = 0, unproved = 0, worst = 0;
+    double min_scaled = HUGE_VAL;
+    std::array<std::size_t, bins> histogram{};  ///< of scaled determinants
+
+    void add(const MeshView& mesh, std::size_t cell, const JacobianBounds& bounds) {
+        if (bounds.verdict != CellVerdict::valid) {
+            const bool is_invalid = bounds.verdict == CellVerdict::invalid;
+            ++(is_invalid ? invalid : unproved);
+            defects.add([&] {
+                return MeshDefect{
+                    (is_invalid ? "curved inside out: " : "curved and not proved valid: ") + cell_text(mesh, cell),
+                    mesh.points[CellEdges(mesh).corner(cell, 0).index()]};
+            });
+        }
+        const double scaled = bounds.scaled();
+        ++histogram[std::min(static_cast<std::size_t>(scaled * bins), bins - 1)];
+        if (scaled >= min_scaled) return;
+        min_scaled = scaled;
+        worst = cell;
+    }
+    void append(ProvedCells&& other) {
+        defects.append(std::move(other.defects));
+        invalid += other.invalid;
+        unproved += other.unproved;
+        for (std::size_t i = 0; i < bins; ++i) histogram[i] += other.histogram[i];
+        if (other.min_scaled >= min_scaled) return;
+        min_scaled = other.min_scaled;
+        worst = other.worst;
+    }
+    /// Returns the lower end of the bin that holds the first percentile.
+    double first_percentile(std::size_t cells) const {
+        std::size_t bin = 0, below = histogram[0];
+        while (bin + 1 < bins && below * 100 < cells) below += histogram[++bin];
+        return static_cast<double>(bin) / static_cast<double>(bins);
+    }
+};
+
+}  // namespace
+
+}  // namespace lamina::mesh
+
+namespace lamina {
+
+using namespace mesh;
+
+CurvedCheck check_curved(const MeshView& mesh, const CurvedNodes& nodes) {
+    CurvedCheck check;
+    ProvedCells all;
+    const CellEdges cells(mesh);
+    if (check_lists(mesh, nodes, all.defects)) {
+        check_common_nodes(mesh, nodes, all.defects);
+        auto blocks = core::parallel_blocks(cells.cells(), cells_per_block, [&](std::size_t begin, std::size_t end) {
+            ProvedCells block;
+            CellNodes places;
+            for (std::size_t cell = begin; cell < end; ++cell)
+                block.add(mesh, cell,
+                          bound_jacobian(static_cast<unsigned>(cells.corners(cell)), nodes.order,
+                                         gather_nodes(mesh, nodes, cell, places)));
+            return block;
+        });
+        for (ProvedCells& block : blocks) all.append(std::move(block));
+    }
+    check.defects = std::move(all.defects.kept);
+    check.defect_count = all.defects.count;
+    check.invalid = all.invalid;
+    check.unproved = all.unproved;
+    if (!std::isfinite(all.min_scaled)) return check;
+    check.min_scaled_jacobian = all.min_scaled;
+    check.min_scaled_jacobian_at = mesh.points[cells.corner(all.worst, 0).index()];
+    check.p01_scaled_jacobian = all.first_percentile(cells.cells());
+    return check;
+}
+
+}  // namespace lamina
