@@ -19,6 +19,7 @@
 #include <filesystem>
 #include <memory>
 
+#include <lamina/curved_mesh.hpp>
 #include <lamina/mesh_sink.hpp>
 #include <lamina/ranks.hpp>
 #include <lamina/sizing.hpp>
@@ -67,6 +68,16 @@ struct ReadOptions {
 
 /// Reads a mesh. Throws InputError (with the line, for text formats) where the file is malformed.
 LAMINA_EXPORT Mesh read_mesh(const std::filesystem::path& file, const ReadOptions& options = {});
+
+/// Writes a mesh with curved cells: MSH and VTU. Throws UsageError for other formats, and what write_mesh() throws.
+LAMINA_EXPORT void write_curved_mesh(const MeshView& mesh, const CurvedNodes& nodes, const std::filesystem::path& file,
+                                     const WriteOptions& options = {});
+/// Throws UsageError for formats that do not hold curved cells, in one line that names those that do.
+LAMINA_EXPORT void require_curved_format(const std::filesystem::path& file, const WriteOptions& options = {});
+/// Reads a mesh whose cells may be curved, all of one order: MSH. Other formats are read as read_mesh() does; their order
+/// is 1. Throws InputError where the file is malformed.
+LAMINA_EXPORT CurvedMesh read_curved_mesh(const std::filesystem::path& file, const ReadOptions& options = {});
+
 /// Writes wall_vertices() as CSV, one line each: marker, vertex (from 0), x, y, arc length, unit normal and first
 /// height. Numbers have 17 significant digits.
 LAMINA_EXPORT void write_wall_data(const Mesh& mesh, const std::filesystem::path& file);
@@ -101,15 +112,16 @@ LAMINA_EXPORT std::vector<std::filesystem::path> output_files(const std::filesys
 /// A mesh from a file. The arrays of a large one lie in temporary files, which are mapped into memory.
 class LAMINA_EXPORT StoredMesh {
 public:
-    explicit StoredMesh(Mesh mesh);                      ///< holds a mesh in memory
-    StoredMesh(StoredMesh&& other) noexcept;             ///< leaves nothing but destruction to the other object
-    StoredMesh& operator=(StoredMesh&& other) noexcept;  ///< does the same, and gives up the arrays of this object
+    explicit StoredMesh(Mesh mesh, CurvedNodes curved = {});  ///< holds a mesh in memory
+    StoredMesh(StoredMesh&& other) noexcept;                  ///< leaves nothing but destruction to the other object
+    StoredMesh& operator=(StoredMesh&& other) noexcept;       ///< does the same, and gives up the arrays of this object
     ~StoredMesh();
 
     MeshView view() const;                        ///< the whole mesh, as long as this object lives and is not changed
     std::vector<Marker>& markers();               ///< the markers, which always lie in memory and may be changed
     void set_region(std::vector<Region> region);  ///< sets the region of each cell, or of none
     bool in_files() const;                        ///< whether arrays lie in temporary files
+    const CurvedNodes& curved() const;            ///< what makes its cells curved (StoreOptions::curved)
 
     struct Arrays;
     explicit StoredMesh(std::unique_ptr<Arrays> arrays);  ///< holds arrays that a reader has filled
@@ -122,6 +134,7 @@ private:
 struct StoreOptions {
     std::string format{};                                    ///< that of ReadOptions
     std::size_t max_bytes_in_memory = std::size_t{1} << 30;  ///< arrays of larger files go to temporary files
+    bool curved = false;  ///< whether cells may be curved; else such a file is an InputError
 };
 
 /// Reads the mesh that read_mesh() reads, and throws what it throws.

@@ -44,13 +44,25 @@ void write_files(const MeshView& mesh, const fs::path& file, const WriteOptions&
 }
 
 template <auto parse>
-Mesh read_one_file(const fs::path& file) {
+auto read_one_file(const fs::path& file) {
     return parse(read_file(file), input_name(file));
 }
 
 template <bool version_4, bool binary>
-void write_msh_variant(const MeshView& mesh, const fs::path& file, std::ostream& out) {
-    write_msh(mesh, file, {version_4, binary}, out);
+void write_curved_msh(const MeshView& mesh, const CurvedNodes& nodes, const fs::path& file, const WriteOptions&) {
+    core::write_stream_atomically(file, [&](std::ostream& out) {
+        write_msh(mesh, nodes, file, {version_4, binary}, out);
+    });
+}
+template <bool version_4, bool binary>
+void write_straight_msh(const MeshView& mesh, const fs::path& file, const WriteOptions& options) {
+    write_curved_msh<version_4, binary>(mesh, {}, file, options);
+}
+
+template <bool compressed>
+void write_curved_vtu_variant(const MeshView& mesh, const CurvedNodes& nodes, const fs::path& file,
+                              const WriteOptions&) {
+    core::write_stream_atomically(file, [&](std::ostream& out) { write_curved_vtu(mesh, nodes, compressed, out); });
 }
 
 template <bool binary>
@@ -139,21 +151,23 @@ std::vector<FormatRow> cgns_rows() {
 
 std::vector<FormatRow> msh_rows() {
     std::vector<FormatRow> rows;
-    const auto add = [&](const char* name, const char* description, auto write) {
+    const auto add = [&]<bool version_4, bool binary>(const char* name, const char* description) {
         rows.push_back({.name = name,
                         .extensions = {".msh"},
                         .description = description,
-                        .write = write,
+                        .write = write_straight_msh<version_4, binary>,
                         .files = one_file,
+                        .write_curved = write_curved_msh<version_4, binary>,
+                        .read_curved = read_one_file<read_curved_msh>,
                         .read = read_one_file<read_msh>,
                         .read_sizes = read_msh_sizes,
                         .one_stream = true,
                         .internal_markers = true});
     };
-    add("msh41", "Gmsh MSH 4.1, ASCII", write_one_file<write_msh_variant<true, false>>);
-    add("msh41-binary", "Gmsh MSH 4.1, binary", write_one_file<write_msh_variant<true, true>>);
-    add("msh22", "Gmsh MSH 2.2, ASCII", write_one_file<write_msh_variant<false, false>>);
-    add("msh22-binary", "Gmsh MSH 2.2, binary", write_one_file<write_msh_variant<false, true>>);
+    add.operator()<true, false>("msh41", "Gmsh MSH 4.1, ASCII");
+    add.operator()<true, true>("msh41-binary", "Gmsh MSH 4.1, binary");
+    add.operator()<false, false>("msh22", "Gmsh MSH 2.2, ASCII");
+    add.operator()<false, true>("msh22-binary", "Gmsh MSH 2.2, binary");
     rows.push_back({.name = "msh22-extruded",
                     .extensions = {".msh"},
                     .description = "Gmsh MSH 2.2, ASCII, in space, for gmshToFoam",
@@ -166,12 +180,13 @@ std::vector<FormatRow> msh_rows() {
 
 std::vector<FormatRow> vtu_rows() {
     std::vector<FormatRow> rows;
-    const auto add = [&](const char* name, const char* description, auto write) {
+    const auto add = [&]<bool compressed>(const char* name, const char* description) {
         rows.push_back({.name = name,
                         .extensions = {".vtu"},
                         .description = description,
-                        .write = write,
+                        .write = write_vtu_variant<compressed>,
                         .files = one_file,
+                        .write_curved = write_curved_vtu_variant<compressed>,
                         .read = read_one_file<read_vtu>,
                         .read_stored = read_vtu_arrays,
                         .read_sizes = read_vtu_sizes,
@@ -179,9 +194,9 @@ std::vector<FormatRow> vtu_rows() {
                         .one_stream = true,
                         .internal_markers = true});
     };
-    add("vtu", "VTK unstructured grid, raw binary, for ParaView", write_vtu_variant<false>);
+    add.operator()<false>("vtu", "VTK unstructured grid, raw binary, for ParaView");
     rows.back().layout = vtu_layout;
-    add("vtu-zlib", "VTK unstructured grid, compressed by zlib", write_vtu_variant<true>);
+    add.operator()<true>("vtu-zlib", "VTK unstructured grid, compressed by zlib");
     rows.push_back({.name = "pvtu",
                     .extensions = {".pvtu"},
                     .description = "VTK unstructured grid in parts (--parts), each a VTU file",

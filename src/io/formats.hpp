@@ -41,6 +41,11 @@ struct FormatRow {
     std::vector<std::filesystem::path> (*files)(const std::filesystem::path&, const WriteOptions&) = nullptr;
     /// Throws IoError where the mesh certainly cannot be written. Null: it can where each of its files can.
     void (*check)(const std::filesystem::path&) = nullptr;
+    /// Writes a mesh with curved cells, internal markers included, as `write` does. Null: the format holds straight cells.
+    void (*write_curved)(const MeshView&, const CurvedNodes&, const std::filesystem::path&,
+                         const WriteOptions&) = nullptr;
+    /// Reads a mesh whose cells may be curved. Null: the format is read with straight cells.
+    CurvedMesh (*read_curved)(const std::filesystem::path&) = nullptr;
     /// Reads a mesh. Throws IoError, InputError. Null: the format is not read.
     Mesh (*read)(const std::filesystem::path&) = nullptr;
     /// Reads the same mesh into arrays that may lie in files, in constant memory beside the markers where the variant of
@@ -91,6 +96,8 @@ struct VtuVariant {
     bool wall_distance = false;  ///< written as point data
 };
 void write_vtu(const MeshView& mesh, VtuVariant variant, std::ostream& out);
+/// Writes curved cells as Lagrange cells, which are not read back.
+void write_curved_vtu(const MeshView& mesh, const CurvedNodes& nodes, bool compressed, std::ostream& out);
 /// Writes a mesh in space, which is not read back.
 void write_vtu_extruded(const MeshView& mesh, const Extrusion& extrusion, bool compressed, std::ostream& out);
 Mesh read_vtu(const std::string& bytes, const std::filesystem::path& file);
@@ -119,11 +126,15 @@ struct MshVariant {
     bool version_4 = true;  ///< 4.1, else 2.2
     bool binary = false;
 };
-void write_msh(const MeshView& mesh, const std::filesystem::path& file, MshVariant variant, std::ostream& out);
+/// Writes a mesh with straight cells, whose nodes are none, or with curved ones.
+void write_msh(const MeshView& mesh, const CurvedNodes& nodes, const std::filesystem::path& file, MshVariant variant,
+               std::ostream& out);
 /// Writes version 2.2, ASCII, in space.
 void write_msh_extruded(const MeshView& mesh, const std::filesystem::path& file, const Extrusion& extrusion,
                         std::ostream& out);
-/// Reads either version, ASCII or binary.
+/// Reads either version, ASCII or binary, with cells of one order.
+CurvedMesh read_curved_msh(const std::string& bytes, const std::filesystem::path& file);
+/// Reads a mesh with straight cells.
 Mesh read_msh(const std::string& bytes, const std::filesystem::path& file);
 /// Reads the mesh and the $NodeData that size_array() names.
 PointValues read_msh_sizes(const std::string& bytes, const std::filesystem::path& file);

@@ -25,6 +25,30 @@ void write_mesh(const MeshView& mesh, const fs::path& file, const WriteOptions& 
     format.write(boundary_alone, file, options);
 }
 
+void require_curved_format(const fs::path& file, const WriteOptions& options) {
+    const FormatRow& format = find_format(file, options.format);
+    if (options.span > 0) throw UsageError("curved cells have no span: leave the order or the span out");
+    if (options.wall_distance) throw UsageError("wall distances are those from straight walls: leave the order out");
+    if (format.write_curved != nullptr) return;
+    std::string names;
+    for (const FormatRow& row : format_table())
+        if (row.write_curved != nullptr) names += (names.empty() ? "" : ", ") + std::string(row.name);
+    throw UsageError(
+        fmt::format("format '{}' holds straight cells: those with curved ones are {}", format.name, names));
+}
+
+void write_curved_mesh(const MeshView& mesh, const CurvedNodes& nodes, const fs::path& file,
+                       const WriteOptions& options) {
+    require_curved_format(file, options);
+    check_writable(file, options);
+    find_format(file, options.format).write_curved(mesh, nodes, file, options);
+}
+
+CurvedMesh read_curved_mesh(const fs::path& file, const ReadOptions& options) {
+    const FormatRow& format = format_to_read(file, options.format);
+    return format.read_curved != nullptr ? format.read_curved(file) : CurvedMesh{format.read(file), {}};
+}
+
 std::vector<Warning> lost_marker_warnings(std::span<const Marker> markers, const fs::path& file,
                                           const WriteOptions& options) {
     const FormatRow& format = find_format(file, options.format);

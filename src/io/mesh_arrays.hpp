@@ -57,13 +57,14 @@ namespace lamina {
 /// A StoredMesh holds a mesh in memory, or arrays.
 struct StoredMesh::Arrays {
     Mesh mesh;
+    CurvedNodes curved;
     bool has_arrays = false, in_files = false;
     io::MeshArrays arrays;
     std::vector<Region> region;  ///< in place of that of the arrays
     bool has_region = false;
 
     explicit Arrays(bool files) : has_arrays(true), in_files(files), arrays(files) {}
-    explicit Arrays(Mesh whole) : mesh(std::move(whole)), arrays(false) {}
+    Arrays(Mesh whole, CurvedNodes nodes) : mesh(std::move(whole)), curved(std::move(nodes)), arrays(false) {}
 };
 
 }  // namespace lamina

@@ -1,5 +1,5 @@
-// Reads Gmsh's MSH format, versions 2.0 to 2.2 and 4.1, ASCII and binary: plane meshes of lines (element type 1),
-// triangles (2) and quadrilaterals (3). Points (15) and unknown sections are skipped.
+// Reads Gmsh's MSH format, versions 2.0 to 2.2 and 4.1, ASCII and binary: plane meshes of lines, triangles and quadrilaterals
+// of one order from 1 to 4. Points (element type 15) and unknown sections are skipped.
 // Source: Gmsh reference manual, "Gmsh mesh file formats".
 //
 // The lines of a physical curve become a marker with the name of the group; lines without a group are left out. Where
@@ -7,10 +7,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <map>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include <lamina/error.hpp>
@@ -25,22 +27,6 @@
 namespace lamina::io {
 
 namespace {
-
-/// Returns the number of nodes of an element; 0 for types that cannot be read.
-std::size_t corners_of(int type) {
-    switch (type) {
-        case msh_point:
-            return 1;
-        case msh_line:
-            return 2;
-        case msh_triangle:
-            return 3;
-        case msh_quad:
-            return 4;
-        default:
-            return 0;
-    }
-}
 
 /// Finds nodes by the numbers that the file gives them.
 class NodeNumbers {
@@ -72,7 +58,7 @@ class MshReader {
 public:
     MshReader(const std::string& bytes, const std::filesystem::path& file) : in_(bytes, file.string()), file_(file) {}
 
-    Mesh read() {
+    CurvedMesh read_curved() {
         read_header();
         for (std::string_view name; !(name = in_.word()).empty();) {
             if (name.front() != '$') in_.fail(fmt::format("section expected, found '{}'", name.substr(0, 30)));
@@ -94,7 +80,13 @@ public:
         }
         if (!has_nodes_ || !has_elements_) in_.fail("the file ends without $Nodes or $Elements");
         finish();
-        return std::move(mesh_);
+        return {std::move(mesh_), std::move(curved_)};
+    }
+    /// Reads a mesh whose cells are straight.
+    Mesh read() {
+        CurvedMesh mesh = read_curved();
+        if (order_ > 1) in_.fail(fmt::format("cells of order {}, which only 'lamina check' reads", order_));
+        return std::move(mesh.mesh);
     }
     /// Returns the sizes that the file holds. Precondition: read() was called.
     std::vector<double> sizes() {
@@ -250,11 +242,11 @@ private:
         if (std::exchange(has_elements_, true)) in_.fail("a second $Elements");
     }
     int element_type(int type) const {
-        if (corners_of(type) == 0)
-            in_.fail(
-                fmt::format("element type {}: only 1 (line), 2 (triangle), 3 (quadrilateral) and 15 (point) can "
-                            "be read",
-                            type));
+        if (find_msh_element(type) == nullptr && type != msh_point)
+            in_.fail(fmt::format(
+                "element type {}: only points (15) and lines, triangles and quadrilaterals of orders 1 to 4 "
+                "(1, 2, 3 at order 1) can be read",
+                type));
         return type;
     }
     template <class Number>
@@ -265,16 +257,26 @@ private:
     }
     template <class Number>
     void read_element(int type, int group) {
-        VertexId v[4];
-        for (std::size_t k = 0; k < corners_of(type); ++k) v[k] = find_node(in_.number<Number>("node number"));
-        if (type == msh_line && group != 0) {
+        const MshElement* const element = find_msh_element(type);
+        const std::size_t nodes = element == nullptr ? 1 : element->nodes;
+        std::array<VertexId, 25> v;
+        for (std::size_t k = 0; k < nodes; ++k) v[k] = find_node(in_.number<Number>("node number"));
+        if (element == nullptr) return;
+        if (order_ != 0 && element->order != order_) in_.fail("elements of several orders");
+        order_ = element->order;
+        const std::span<const VertexId> beside = std::span(v).subspan(element->corners, nodes - element->corners);
+        const auto keep = [&](std::vector<VertexId>& list) { list.insert(list.end(), beside.begin(), beside.end()); };
+        if (element->corners == 2 && group != 0) {
             edges_[group].push_back({v[0], v[1]});
-        } else if (type == msh_triangle) {
+            keep(edge_nodes_[group]);
+        } else if (element->corners == 3) {
             mesh_.triangles.push_back({{v[0], v[1], v[2]}});
             triangle_groups_.push_back(group);
-        } else if (type == msh_quad) {
+            keep(curved_.triangle_nodes);
+        } else if (element->corners == 4) {
             mesh_.quads.push_back({{v[0], v[1], v[2], v[3]}});
             quad_groups_.push_back(group);
+            keep(curved_.quad_nodes);
         }
     }
 
@@ -326,6 +328,8 @@ private:
             const auto named = names_.find({1, group});
             const std::string name = named == names_.end() ? fmt::format("curve{}", group) : std::string(named->second);
             mesh_.markers.push_back({name, core::kind_of_name(name), std::move(edges)});
+            const std::vector<VertexId>& nodes = edge_nodes_[group];
+            curved_.marker_nodes.insert(curved_.marker_nodes.end(), nodes.begin(), nodes.end());
         }
         triangle_groups_.insert(triangle_groups_.end(), quad_groups_.begin(), quad_groups_.end());
         for (const int group : triangle_groups_) {
@@ -337,7 +341,48 @@ private:
             }
             mesh_.region.push_back(region);
         }
+        const std::vector<Marker> before = order_ > 1 ? mesh_.markers : std::vector<Marker>{};
         orient_markers(mesh_);
+        if (order_ > 1) separate_nodes(before);
+    }
+
+    /// Turns the nodes of marker edges as the edges were turned, and makes the nodes that are no corner of any cell those of
+    /// curved cells. `before` holds the markers as the file has them.
+    void separate_nodes(const std::vector<Marker>& before) {
+        curved_.order = order_;
+        auto nodes = curved_.marker_nodes.begin();
+        for (std::size_t m = 0; m < before.size(); ++m)
+            for (std::size_t i = 0; i < before[m].edges.size(); ++i, nodes += order_ - 1)
+                if (mesh_.markers[m].edges[i] != before[m].edges[i]) std::reverse(nodes, nodes + (order_ - 1));
+        std::vector<bool> is_curved(mesh_.points.size());
+        const auto for_each_list = [&](auto&& f) {
+            for (auto* list : {&curved_.triangle_nodes, &curved_.quad_nodes, &curved_.marker_nodes}) f(*list);
+        };
+        for_each_list([&](const std::vector<VertexId>& list) {
+            for (const VertexId v : list) is_curved[v.index()] = true;
+        });
+        std::vector<Point> vertices;
+        std::vector<VertexId> number(mesh_.points.size());
+        const auto vertex_count = static_cast<std::size_t>(std::count(is_curved.begin(), is_curved.end(), false));
+        for (std::size_t i = 0; i < mesh_.points.size(); ++i) {
+            number[i] = VertexId(is_curved[i] ? vertex_count + curved_.points.size() : vertices.size());
+            (is_curved[i] ? curved_.points : vertices).push_back(mesh_.points[i]);
+        }
+        mesh_.points = std::move(vertices);
+        const auto renumber = [&](VertexId& v) {
+            if (is_curved[v.index()]) in_.fail("a node is the corner of one element and no corner of another one");
+            v = number[v.index()];
+        };
+        for (Triangle& triangle : mesh_.triangles) std::for_each(triangle.v, triangle.v + 3, renumber);
+        for (Quad& quad : mesh_.quads) std::for_each(quad.v, quad.v + 4, renumber);
+        for (Marker& marker : mesh_.markers)
+            for (Segment& edge : marker.edges) {
+                renumber(edge.a);
+                renumber(edge.b);
+            }
+        for_each_list([&](std::vector<VertexId>& list) {
+            for (VertexId& v : list) v = number[v.index()];
+        });
     }
 
     ByteReader in_;
@@ -347,13 +392,20 @@ private:
     NodeNumbers nodes_;
     std::map<EntityKey, std::string_view> names_;  ///< of the physical groups
     std::map<EntityKey, int> group_of_entity_;
-    std::map<int, std::vector<Segment>> edges_;       ///< lines by physical group
-    std::vector<int> triangle_groups_, quad_groups_;  ///< per cell: its physical group, or 0
+    std::map<int, std::vector<Segment>> edges_;        ///< lines by physical group
+    std::map<int, std::vector<VertexId>> edge_nodes_;  ///< their nodes beside the ends
+    std::vector<int> triangle_groups_, quad_groups_;   ///< per cell: its physical group, or 0
     std::map<std::string, std::vector<double>, std::less<>> node_data_;
+    unsigned order_ = 0;  ///< of all lines and cells; 0 before the first one
     Mesh mesh_;
+    CurvedNodes curved_;
 };
 
 }  // namespace
+
+CurvedMesh read_curved_msh(const std::string& bytes, const std::filesystem::path& file) {
+    return MshReader(bytes, file).read_curved();
+}
 
 Mesh read_msh(const std::string& bytes, const std::filesystem::path& file) { return MshReader(bytes, file).read(); }
 

@@ -29,15 +29,25 @@ namespace {
 /// The elements of one type on one entity.
 struct ElementBlock {
     int dimension, entity;
-    MshElementType type;
-    std::size_t corners, count, first_number;
-    const Marker* marker;    ///< for lines, else null
-    const CellBlock* cells;  ///< for triangles and quadrilaterals, else null
+    MshElement element;
+    std::size_t count, first_number;
+    const Marker* marker;                    ///< for lines, else null
+    const CellBlock* cells;                  ///< for triangles and quadrilaterals, else null
+    std::span<const VertexId> curved_nodes;  ///< of the lines of the marker, or of all cells of this shape
 
     /// Returns the number of node k of element i of the block.
     std::size_t node(const MeshView& mesh, std::size_t i, std::size_t k) const {
+        if (k >= element.corners) {
+            const std::size_t beside = element.nodes - element.corners, cell = cells != nullptr ? cells->cells[i] : i;
+            return curved_nodes[cell * beside + k - element.corners].index() + 1;
+        }
         if (marker != nullptr) return (k == 0 ? marker->edges[i].a : marker->edges[i].b).index() + 1;
         return cells->vertices(mesh, i)[k].index() + 1;
+    }
+    /// Returns the most bytes of a line of an element: its numbers, and room for its number, type and tags.
+    std::size_t most_bytes() const {
+        constexpr std::size_t bytes_of_index = 16, numbers_before = 4;
+        return bytes_of_index * (numbers_before + element.nodes);
     }
 };
 
@@ -50,8 +60,8 @@ struct PhysicalGroup {
 
 class MshWriter {
 public:
-    MshWriter(const MeshView& mesh, MshVariant variant, std::ostream& out)
-        : mesh_(mesh), variant_(variant), out_(out), cells_(cell_blocks(mesh)) {
+    MshWriter(const MeshView& mesh, const CurvedNodes& nodes, MshVariant variant, std::ostream& out)
+        : mesh_(mesh), nodes_(nodes), variant_(variant), out_(out), cells_(cell_blocks(mesh)) {
         find_groups();
         find_elements();
     }
@@ -95,11 +105,16 @@ private:
             number += block.count;
             elements_.push_back(block);
         };
-        for (std::size_t m = 0; m < mesh_.markers.size(); ++m)
-            add({1, groups_[m].entity, msh_line, 2, mesh_.markers[m].edges.size(), 0, &mesh_.markers[m], nullptr});
+        std::size_t edges = 0;
+        for (std::size_t m = 0; m < mesh_.markers.size(); ++m) {
+            const std::size_t count = mesh_.markers[m].edges.size(), within = nodes_.order - 1;
+            add({1, groups_[m].entity, msh_element(2, nodes_.order), count, 0, &mesh_.markers[m], nullptr,
+                 std::span(nodes_.marker_nodes).subspan(edges * within, count * within)});
+            edges += count;
+        }
         for (const CellBlock& block : cells_)
-            add({2, surface_of(block), block.corners == 3 ? msh_triangle : msh_quad, block.corners, block.cells.size(),
-                 0, nullptr, &block});
+            add({2, surface_of(block), msh_element(block.corners, nodes_.order), block.cells.size(), 0, nullptr, &block,
+                 block.corners == 3 ? nodes_.triangle_nodes : nodes_.quad_nodes});
         element_count_ = number - 1;
     }
 
@@ -153,7 +168,7 @@ private:
     }
     /// Writes one block of nodes: all their numbers, then all their coordinates.
     void write_nodes_4() {
-        const std::size_t n = mesh_.points.size();
+        const std::size_t n = node_count();
         const int surface = groups_.back().dimension == 2 ? surface_of(cells_.front()) : 1;
         if (variant_.binary) {
             for (const std::size_t value : {std::size_t{1}, n, std::size_t{1}, n}) write_value(out_, value);
@@ -164,21 +179,25 @@ private:
         } else {
             out_ << fmt::format("1 {0} 1 {0}\n2 {1} 0 {0}\n", n, surface);
             write_lines(out_, n, [](LineText& line, std::size_t i) { line << i + 1; });
-            write_lines(out_, n, [&](LineText& line, std::size_t i) { line << mesh_.points[i] << "0"; });
+            write_lines(out_, n, [&](LineText& line, std::size_t i) { line << node(i) << "0"; });
         }
     }
     void write_nodes_2() {
-        const std::size_t n = mesh_.points.size();
+        const std::size_t n = node_count();
         out_ << n << '\n';
         if (variant_.binary)
             write_records(out_, n, 28,
                           [&](char* p, std::size_t i) { store_point(store(p, static_cast<std::int32_t>(i + 1)), i); });
         else
-            write_lines(out_, n, [&](LineText& line, std::size_t i) { line << i + 1 << mesh_.points[i] << "0"; });
+            write_lines(out_, n, [&](LineText& line, std::size_t i) { line << i + 1 << node(i) << "0"; });
+    }
+    std::size_t node_count() const { return mesh_.points.size() + nodes_.points.size(); }
+    Point node(std::size_t i) const {
+        return i < mesh_.points.size() ? mesh_.points[i] : nodes_.points[i - mesh_.points.size()];
     }
     void store_point(char* p, std::size_t i) const {
-        p = store(p, mesh_.points[i].x);
-        p = store(p, mesh_.points[i].y);
+        p = store(p, node(i).x);
+        p = store(p, node(i).y);
         store(p, 0.0);
     }
 
@@ -202,36 +221,42 @@ private:
     }
     void write_block_4(const ElementBlock& block) {
         if (variant_.binary) {
-            for (const int value : {block.dimension, block.entity, int{block.type}}) write_value(out_, value);
+            for (const int value : {block.dimension, block.entity, block.element.type}) write_value(out_, value);
             write_value(out_, block.count);
-            write_records(out_, block.count, 8 * (1 + block.corners), [&](char* p, std::size_t i) {
+            write_records(out_, block.count, 8 * (1 + block.element.nodes), [&](char* p, std::size_t i) {
                 p = store(p, block.first_number + i);
-                for (std::size_t k = 0; k < block.corners; ++k) p = store(p, block.node(mesh_, i, k));
+                for (std::size_t k = 0; k < block.element.nodes; ++k) p = store(p, block.node(mesh_, i, k));
             });
         } else {
-            out_ << fmt::format("{} {} {} {}\n", block.dimension, block.entity, int{block.type}, block.count);
-            write_lines(out_, block.count, [&](LineText& line, std::size_t i) {
-                line << block.first_number + i;
-                for (std::size_t k = 0; k < block.corners; ++k) line << block.node(mesh_, i, k);
-            });
+            out_ << fmt::format("{} {} {} {}\n", block.dimension, block.entity, block.element.type, block.count);
+            write_lines(
+                out_, block.count,
+                [&](LineText& line, std::size_t i) {
+                    line << block.first_number + i;
+                    for (std::size_t k = 0; k < block.element.nodes; ++k) line << block.node(mesh_, i, k);
+                },
+                block.most_bytes());
         }
     }
     /// Each element has two tags: its physical group and its entity.
     void write_block_2(const ElementBlock& block) {
         if (variant_.binary) {
-            for (const int value : {int{block.type}, static_cast<int>(block.count), 2}) write_value(out_, value);
-            write_records(out_, block.count, 4 * (3 + block.corners), [&](char* p, std::size_t i) {
+            for (const int value : {block.element.type, static_cast<int>(block.count), 2}) write_value(out_, value);
+            write_records(out_, block.count, 4 * (3 + block.element.nodes), [&](char* p, std::size_t i) {
                 p = store(p, static_cast<std::int32_t>(block.first_number + i));
                 p = store(store(p, block.entity), block.entity);
-                for (std::size_t k = 0; k < block.corners; ++k)
+                for (std::size_t k = 0; k < block.element.nodes; ++k)
                     p = store(p, static_cast<std::int32_t>(block.node(mesh_, i, k)));
             });
         } else {
-            const std::string tags = fmt::format("{} 2 {} {}", int{block.type}, block.entity, block.entity);
-            write_lines(out_, block.count, [&](LineText& line, std::size_t i) {
-                line << block.first_number + i << tags;
-                for (std::size_t k = 0; k < block.corners; ++k) line << block.node(mesh_, i, k);
-            });
+            const std::string tags = fmt::format("{} 2 {} {}", block.element.type, block.entity, block.entity);
+            write_lines(
+                out_, block.count,
+                [&](LineText& line, std::size_t i) {
+                    line << block.first_number + i << tags;
+                    for (std::size_t k = 0; k < block.element.nodes; ++k) line << block.node(mesh_, i, k);
+                },
+                block.most_bytes());
         }
     }
 
@@ -262,6 +287,7 @@ private:
     }
 
     MeshView mesh_;
+    const CurvedNodes& nodes_;
     MshVariant variant_;
     std::ostream& out_;
     std::vector<CellBlock> cells_;
@@ -272,13 +298,14 @@ private:
 
 }  // namespace
 
-void write_msh(const MeshView& mesh, const std::filesystem::path& file, MshVariant variant, std::ostream& out) {
+void write_msh(const MeshView& mesh, const CurvedNodes& nodes, const std::filesystem::path& file, MshVariant variant,
+               std::ostream& out) {
     require_marker_names(mesh.markers, file, "MSH", "\"", 127);
     constexpr std::size_t max_items = std::numeric_limits<std::int32_t>::max() / 2;
-    const std::size_t items = mesh.points.size() + mesh.triangles.size() + mesh.quads.size();
+    const std::size_t items = mesh.points.size() + nodes.points.size() + mesh.triangles.size() + mesh.quads.size();
     if (!variant.version_4 && variant.binary && items > max_items)
         throw UsageError(fmt::format("{}: binary MSH 2.2 numbers no more than 2^31 nodes and elements", file.string()));
-    MshWriter(mesh, variant, out).write();
+    MshWriter(mesh, nodes, variant, out).write();
 }
 
 }  // namespace lamina::io

@@ -9,7 +9,8 @@ namespace lamina {
 
 namespace fs = std::filesystem;
 
-StoredMesh::StoredMesh(Mesh mesh) : arrays_(std::make_unique<Arrays>(std::move(mesh))) {}
+StoredMesh::StoredMesh(Mesh mesh, CurvedNodes curved)
+    : arrays_(std::make_unique<Arrays>(std::move(mesh), std::move(curved))) {}
 StoredMesh::StoredMesh(std::unique_ptr<Arrays> arrays) : arrays_(std::move(arrays)) {}
 StoredMesh::StoredMesh(StoredMesh&&) noexcept = default;
 StoredMesh& StoredMesh::operator=(StoredMesh&&) noexcept = default;
@@ -32,11 +33,17 @@ void StoredMesh::set_region(std::vector<Region> region) {
 
 bool StoredMesh::in_files() const { return arrays_->in_files; }
 
+const CurvedNodes& StoredMesh::curved() const { return arrays_->curved; }
+
 StoredMesh read_stored_mesh(const fs::path& file, const StoreOptions& options) {
     const io::FormatRow& format = io::format_to_read(file, options.format);
     std::error_code error;
     const std::uintmax_t size = is_standard_stream(file) ? 0 : fs::file_size(file, error);
     const bool large = !error && size > options.max_bytes_in_memory;
+    if (options.curved && format.read_curved != nullptr) {
+        CurvedMesh curved = format.read_curved(file);
+        return StoredMesh(std::move(curved.mesh), std::move(curved.nodes));
+    }
     if (!large || format.read_stored == nullptr) return StoredMesh(format.read(file));
     auto arrays = std::make_unique<StoredMesh::Arrays>(true);
     format.read_stored(file, arrays->arrays);

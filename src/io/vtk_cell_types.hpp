@@ -13,7 +13,10 @@ enum VtkCellType : std::uint8_t {
     vtk_triangle = 5,
     vtk_quad = 9,
     vtk_hexahedron = 12,
-    vtk_wedge = 13
+    vtk_wedge = 13,
+    vtk_lagrange_curve = 68,
+    vtk_lagrange_triangle = 69,
+    vtk_lagrange_quad = 70
 };
 
 }  // namespace lamina::io

@@ -15,8 +15,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <functional>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <string>
@@ -28,6 +30,7 @@
 #include "io/sizes.hpp"
 #include "io/vtk_cell_types.hpp"
 #include "io/vtu_writer.hpp"
+#include "mesh/cell_lattice.hpp"
 #include "mesh/quality.hpp"
 
 namespace lamina::io {
@@ -133,10 +136,11 @@ void add_fields(std::span<const SolutionField> fields, bool at_cells, std::size_
     }
 }
 
-void add_points(const MeshView& mesh, VtuWriter& vtu) {
+void add_points(const MeshView& mesh, std::span<const Point> curved, VtuWriter& vtu) {
     vtu.xml += "      <Points>\n";
-    vtu.add_array<double>("Points", mesh.points.size(), 3, [&mesh](std::size_t i) {
-        const Point p = mesh.points[i / 3];
+    const std::size_t vertices = mesh.points.size();
+    vtu.add_array<double>("Points", vertices + curved.size(), 3, [&mesh, curved, vertices](std::size_t i) {
+        const Point p = i / 3 < vertices ? mesh.points[i / 3] : curved[i / 3 - vertices];
         return i % 3 == 0 ? p.x : i % 3 == 1 ? p.y : 0.0;
     });
     vtu.xml += "      </Points>\n";
@@ -151,18 +155,86 @@ void add_cells(const VtuCells& cells, VtuWriter& vtu) {
     vtu.xml += "      </Cells>\n";
 }
 
+/// Returns the places in the order of Gmsh of the nodes of a quadrilateral in that of VTK, which runs along its last two
+/// edges from their far ends, and through the inner nodes row by row.
+std::vector<std::size_t> vtk_order_of_quad(unsigned order) {
+    const std::span<const mesh::LatticePlace> lattice = mesh::lattice_of_cell(4, order);
+    std::vector<std::size_t> places(lattice.size());
+    std::iota(places.begin(), places.end(), std::size_t{0});
+    const auto begin = places.begin() + 4 + 2 * (order - 1), inner = begin + 2 * (order - 1);
+    std::reverse(begin, begin + (order - 1));
+    std::reverse(begin + (order - 1), inner);
+    std::sort(inner, places.end(), [&](std::size_t a, std::size_t b) {
+        return std::pair(lattice[a].j, lattice[a].i) < std::pair(lattice[b].j, lattice[b].i);
+    });
+    return places;
+}
+
+/// The cells of the file as Lagrange cells. Source: VTK, vtkHigherOrderQuadrilateral and vtkHigherOrderTriangle.
+struct LagrangeCells {
+    std::vector<std::int64_t> connectivity, offsets;
+
+    LagrangeCells() = default;
+    LagrangeCells(const VtuCells& cells, const CurvedNodes& nodes) {
+        const MeshView& mesh = cells.mesh;
+        const unsigned p = nodes.order;
+        const std::vector<std::size_t> order_of_quad = vtk_order_of_quad(p);
+        std::array<VertexId, mesh::nodes_of_cell(4, max_cell_order)> all{};
+        const auto gather = [&](std::span<const VertexId> corners, const std::vector<VertexId>& beside,
+                                std::size_t first, std::size_t count) {
+            const auto end = std::copy(corners.begin(), corners.end(), all.begin());
+            std::copy_n(beside.begin() + static_cast<std::ptrdiff_t>(first * count), count, end);
+            return corners.size() + count;
+        };
+        const auto add = [&](VertexId v) { connectivity.push_back(v.value); };
+        const auto end_cell = [&] { offsets.push_back(static_cast<std::int64_t>(connectivity.size())); };
+        for (std::size_t t = 0; t < cells.triangles; ++t) {
+            const std::size_t n = gather(mesh.triangles[t].v, nodes.triangle_nodes, t, mesh::nodes_of_cell(3, p) - 3);
+            for (std::size_t k = 0; k < n; ++k) add(all[k]);
+            end_cell();
+        }
+        for (std::size_t q = 0; q < cells.quads; ++q) {
+            gather(mesh.quads[q].v, nodes.quad_nodes, q, mesh::nodes_of_cell(4, p) - 4);
+            for (const std::size_t k : order_of_quad) add(all[k]);
+            end_cell();
+        }
+        for (std::size_t i = 0; i < cells.lines.size(); ++i) {
+            const Segment& edge = cells.lines[i].edge;
+            const std::size_t n = gather(std::array{edge.a, edge.b}, nodes.marker_nodes, i, p - 1);
+            for (std::size_t k = 0; k < n; ++k) add(all[k]);
+            end_cell();
+        }
+    }
+};
+
+void add_lagrange_cells(const VtuCells& cells, const LagrangeCells& lagrange, VtuWriter& vtu) {
+    vtu.xml += "      <Cells>\n";
+    vtu.add_array<std::int64_t>("connectivity", lagrange.connectivity.size(), 1,
+                                [&lagrange](std::size_t i) { return lagrange.connectivity[i]; });
+    vtu.add_array<std::int64_t>("offsets", cells.count(), 1,
+                                [&lagrange](std::size_t i) { return lagrange.offsets[i]; });
+    vtu.add_array<std::uint8_t>("types", cells.count(), 1, [&cells](std::size_t i) {
+        return i < cells.triangles ? vtk_lagrange_triangle : i < cells.inner() ? vtk_lagrange_quad : vtk_lagrange_curve;
+    });
+    vtu.xml += "      </Cells>\n";
+}
+
 void write_grid(const MeshView& mesh, const AddData& add_point_data, bool compressed, const SizedMesh* sizes,
-                std::ostream& out, const AddData& add_to_cells = {}) {
+                std::ostream& out, const AddData& add_to_cells = {}, const CurvedNodes& curved = {}) {
     const VtuCells cells(mesh);
+    const LagrangeCells lagrange = curved.order > 1 ? LagrangeCells(cells, curved) : LagrangeCells{};
     VtuWriter vtu(compressed);
     vtu.xml = vtu_head(compressed);
     add_vtu_field_data(mesh.markers, mesh.constraints, sizes, vtu);
-    vtu.xml +=
-        fmt::format("    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", mesh.points.size(), cells.count());
-    add_point_data(vtu);
+    vtu.xml += fmt::format("    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
+                           mesh.points.size() + curved.points.size(), cells.count());
+    if (add_point_data) add_point_data(vtu);
     add_cell_data(mesh, cells, add_to_cells, vtu);
-    add_points(mesh, vtu);
-    add_cells(cells, vtu);
+    add_points(mesh, curved.points, vtu);
+    if (curved.order > 1)
+        add_lagrange_cells(cells, lagrange, vtu);
+    else
+        add_cells(cells, vtu);
     vtu.xml += "    </Piece>\n  </UnstructuredGrid>\n";
     vtu.write(out);
 }
@@ -220,6 +292,10 @@ void add_vtu_field_data(std::span<const Marker> markers, std::span<const Segment
 void write_vtu(const MeshView& mesh, VtuVariant variant, std::ostream& out) {
     const std::vector<double> distances = variant.wall_distance ? wall_distances(mesh) : std::vector<double>{};
     write_grid(mesh, point_data("wall_distance", distances), variant.compressed, nullptr, out);
+}
+
+void write_curved_vtu(const MeshView& mesh, const CurvedNodes& nodes, bool compressed, std::ostream& out) {
+    write_grid(mesh, {}, compressed, nullptr, out, {}, nodes);
 }
 
 void write_vtu_part(const MeshView& part, std::span<const VertexId> vertices, std::ostream& out) {

@@ -425,6 +425,44 @@ std::vector<GivenEdges> origins_of(const OutlineCurves& outline, const DividedCu
     return origins;
 }
 
+/// Returns the stretch of a curve between two positions, whose ends stand in the outline, with so many points.
+CurvedEdge stretch_between(const SplineCurve& curve, double from, double to, std::size_t points_between, Point begin,
+                           Point end) {
+    CurvedEdge edge{begin, end, {}};
+    const auto steps = static_cast<double>(points_between + 1);
+    for (std::size_t k = 1; k <= points_between; ++k)
+        edge.between.push_back(curve.between(from, to, static_cast<double>(k) / steps));
+    return edge;
+}
+
+/// Returns the stretches of the curves that the edges of a divided outline stand for.
+std::vector<CurvedEdge> curved_edges_of(const OutlineCurves& outline, const DividedCurves& divided,
+                                        std::size_t points_between) {
+    std::vector<CurvedEdge> edges;
+    const std::size_t n = divided.points.size();
+    for (std::size_t c = 0; points_between > 0 && c < outline.curves.size(); ++c) {
+        const SplineCurve& curve = outline.curves[c].curve;
+        const std::size_t end = c + 1 < divided.starts.size() ? divided.starts[c + 1] : n;
+        for (std::size_t i = divided.starts[c]; i < end; ++i) {
+            const double to = i + 1 < end ? divided.positions[i + 1] : static_cast<double>(curve.pieces());
+            edges.push_back(stretch_between(curve, divided.positions[i], to, points_between, divided.points[i],
+                                            divided.points[(i + 1) % n]));
+        }
+    }
+    return edges;
+}
+
+/// Returns the curves of an outline that a spline follows from corner to corner, through all of its points.
+OutlineCurves interpolating_curves(const Element& given) {
+    const std::size_t n = given.points.size();
+    const std::vector<EdgeTreatment> treatment(n, EdgeTreatment::spline);
+    CorneredOutline outline{given.points, given.features.corners, std::vector<std::size_t>(n)};
+    std::iota(outline.origins.begin(), outline.origins.end(), std::size_t{0});
+    OutlineCurves curves;
+    for (const Stretch& stretch : stretches_of(outline)) append_curves(stretch, treatment, curves);
+    return curves;
+}
+
 }  // namespace
 
 const SideEdges* side_edges_of(const SurfaceOptions& options, const Element& element) {
@@ -452,11 +490,9 @@ double extent(std::span<const Point> outline) { return core::longer_side_of_tigh
 
 std::vector<double> edges_asked_for(const Element& given, std::size_t index, const ResamplingRequest& request) {
     const std::size_t n = given.points.size();
-    const std::vector<EdgeTreatment> treatment(n, EdgeTreatment::spline);
     CorneredOutline outline{given.points, given.features.corners, std::vector<std::size_t>(n)};
     std::iota(outline.origins.begin(), outline.origins.end(), std::size_t{0});
-    OutlineCurves curves;
-    for (const Stretch& stretch : stretches_of(outline)) append_curves(stretch, treatment, curves);
+    OutlineCurves curves = interpolating_curves(given);
     const ChordEnds ends = find_chord_ends(given.points);
     limit_at_corners(curves, outline, given, index, request, ends);
     SampledCurves sampled;
@@ -466,6 +502,19 @@ std::vector<double> edges_asked_for(const Element& given, std::size_t index, con
     for (std::size_t c = 0; c < of_pieces.size(); ++c)
         for (std::size_t piece = 0; piece < of_pieces[c].size(); ++piece)
             edges[curves.knots[c][piece]] = of_pieces[c][piece];
+    return edges;
+}
+
+std::vector<CurvedEdge> interpolated_edges(const Element& element, std::size_t points_between) {
+    const OutlineCurves curves = interpolating_curves(element);
+    std::vector<CurvedEdge> edges;
+    for (std::size_t c = 0; c < curves.curves.size(); ++c)
+        for (std::size_t piece = 0; piece < curves.curves[c].curve.pieces(); ++piece) {
+            const auto from = static_cast<double>(piece);
+            edges.push_back(stretch_between(curves.curves[c].curve, from, from + 1, points_between,
+                                            element.points[curves.knots[c][piece]],
+                                            element.points[curves.knots[c][piece + 1]]));
+        }
     return edges;
 }
 
@@ -502,6 +551,7 @@ ResampledElement resample(const Element& given, std::size_t index, const Resampl
 
     std::vector<GivenEdges> origins = origins_of(outline_curves, divided, given.points.size());
     Element element = given;
+    std::vector<CurvedEdge> curved = curved_edges_of(outline_curves, divided, request.limits.points_between);
     element.points = std::move(divided.points);
     element.lines = lines_of(given, element.points);
     element.features.corners.clear();
@@ -516,7 +566,7 @@ ResampledElement resample(const Element& given, std::size_t index, const Resampl
         fmt::format("{} points resampled to {}: {}; {}{} kept, edges within {:.2g} of the spline", given.points.size(),
                     element.points.size(), reason, core::counted(outline.corners.size(), "corner"),
                     kept > 0 ? " and " + core::counted(kept, "given edge") : "", divided.deviation));
-    return {std::move(element), std::move(origins)};
+    return {std::move(element), std::move(origins), std::move(curved)};
 }
 
 }  // namespace lamina::surface

@@ -10,6 +10,7 @@
 #include <lamina/surface.hpp>
 
 #include "geometry/wall_spacing.hpp"
+#include "surface/curved_edge.hpp"
 
 namespace lamina::surface {
 
@@ -25,8 +26,20 @@ struct SpacingLimits {
     /// Number of equal parts of each fan. The lengths above are those over rays that are max_turning_deg apart.
     std::optional<std::uint32_t> fan_parts{};
     std::vector<geometry::WallSpacing>
-        walls{};  ///< spacings of stretches of resampled walls; they grow by the gradation beside
+        walls{};                     ///< spacings of stretches of resampled walls; they grow by the gradation beside
+    std::size_t points_between = 0;  ///< number of points of each CurvedEdge; 0: there are none
 };
+
+/// Walls, and the curves of their edges. An edge without one is straight.
+struct PreparedSurfaces {
+    Geometry geometry;
+    std::vector<CurvedEdge> curves;
+};
+
+/// Does what prepare_within() does, and returns the curves that the walls follow, of SpacingLimits::points_between points.
+/// Walls are straight where points are kept on request, and at sheets.
+LAMINA_EXPORT PreparedSurfaces prepare_with_curves(Geometry given, const SurfaceOptions& options,
+                                                   const SpacingLimits& limits, std::optional<double> chord);
 
 /// Does what prepare_surfaces() does, within these limits. `chord` is the reference chord; empty: the extent in x.
 LAMINA_EXPORT Geometry prepare_within(Geometry given, const SurfaceOptions& options, const SpacingLimits& limits,

@@ -128,6 +128,17 @@ Point SplineCurve::at(std::size_t piece, double share) const {
            (h * u * v * v) * slopes_[piece] - (h * u * u * v) * slopes_[piece + 1];
 }
 
+Point SplineCurve::between(double from, double to, double share) const {
+    const auto length_at = [&](double position) {
+        const auto piece = std::min(static_cast<std::size_t>(position), pieces() - 1);
+        return t_[piece] + (position - static_cast<double>(piece)) * (t_[piece + 1] - t_[piece]);
+    };
+    const double start = length_at(from), t = start + share * (length_at(to) - start);
+    const auto next = std::upper_bound(t_.begin() + 1, t_.end() - 1, t);
+    const auto piece = static_cast<std::size_t>(next - t_.begin()) - 1;
+    return at(piece, (t - t_[piece]) / (t_[piece + 1] - t_[piece]));
+}
+
 Point SplineCurve::direction(std::size_t piece, double share) const {
     const double h = t_[piece + 1] - t_[piece], u = share, v = 1 - share;
     return (6 * u * v / h) * (points_[piece + 1] - points_[piece]) + v * (v - 2 * u) * slopes_[piece] +

@@ -104,9 +104,10 @@ void require_exact_points(const Geometry& geometry, const SurfaceOptions& option
 /// An element, what becomes of its points, and the edges of the new ones.
 struct Plan {
     Decision decision;
-    std::vector<GivenEdges> origins;  ///< as in ResampledElement; empty where all points are kept
-    std::size_t straightened = 0;     ///< number of edges that stay straight lest they cross
-    SampledCurves sampled{};          ///< the curves that the points were put on, for the next time
+    std::vector<GivenEdges> origins;   ///< as in ResampledElement; empty where all points are kept
+    std::size_t straightened = 0;      ///< number of edges that stay straight lest they cross
+    SampledCurves sampled{};           ///< the curves that the points were put on, for the next time
+    std::vector<CurvedEdge> curves{};  ///< of the edges
 };
 
 // ---- sheets --------------------------------------------------------------------------------------------------------
@@ -161,6 +162,7 @@ void apply(Plan& plan, Element& element, const Element& given, std::size_t index
     element.resampled = true;
     element.smooth = !is_jagged(given);
     plan.origins = std::move(resampled.origins);
+    plan.curves = std::move(resampled.curves);
     if (!element.sheets.empty()) fold_sheets(element, given, plan.origins);
     if (plan.straightened > 0)
         element.surface_notes.push_back(
@@ -261,8 +263,8 @@ SpacingLimits mirrored_limits(SpacingLimits limits, const Geometry& geometry) {
 
 }  // namespace
 
-Geometry prepare_within(Geometry given, const SurfaceOptions& options, const SpacingLimits& given_limits,
-                        std::optional<double> chord) {
+PreparedSurfaces prepare_with_curves(Geometry given, const SurfaceOptions& options, const SpacingLimits& given_limits,
+                                     std::optional<double> chord) {
     validate(options);
     for (const StationSpacing& station : options.station_spacings)
         geometry::require_known_element(given, station.element, "spacing_at");
@@ -297,6 +299,8 @@ Geometry prepare_within(Geometry given, const SurfaceOptions& options, const Spa
                 fmt::format("{} points kept: {}", element.points.size(), plan.decision.reason));
             // Points that are kept on request may be as noisy and uneven as they like.
             element.smooth = options.treatment != SurfaceTreatment::keep && !is_jagged(given.elements[i]);
+            if (options.treatment != SurfaceTreatment::keep && limits.points_between > 0)
+                plan.curves = interpolated_edges(element, limits.points_between);
         } else {
             apply(plan, element, given.elements[i], i, request);
             even_out_joints(plan, element, given.elements[i], i, request);
@@ -308,7 +312,19 @@ Geometry prepare_within(Geometry given, const SurfaceOptions& options, const Spa
     require_exact_points(result, options);
     geometry::mirror_again(result);
     for (Element& e : result.elements) geometry::find_trailing_edge(e.points, e.features);
-    return result;
+    PreparedSurfaces prepared{std::move(result), {}};
+    for (std::size_t e = 0; e < plans.size(); ++e) {
+        // Given points that were restored stand between straight edges, and sheets between two sides.
+        const Element& element = prepared.geometry.elements[e];
+        if (element.surface_restored || !element.sheets.empty()) continue;
+        prepared.curves.insert(prepared.curves.end(), plans[e].curves.begin(), plans[e].curves.end());
+    }
+    return prepared;
+}
+
+Geometry prepare_within(Geometry given, const SurfaceOptions& options, const SpacingLimits& limits,
+                        std::optional<double> chord) {
+    return prepare_with_curves(std::move(given), options, limits, chord).geometry;
 }
 
 }  // namespace lamina::surface
