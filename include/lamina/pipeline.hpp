@@ -18,6 +18,7 @@
 #pragma once
 
 #include <lamina/compressible_flow.hpp>
+#include <lamina/curved_mesh.hpp>
 #include <lamina/decoupling.hpp>
 #include <lamina/delaunay.hpp>
 #include <lamina/flow.hpp>
@@ -65,8 +66,11 @@ struct CaseOptions {
     /// Whether the far field is two markers: `inlet`, where a uniform flow at the angle of attack enters, and `outlet`.
     bool inlet_outlet = false;
     std::vector<InternalLine> lines{};  ///< lines inside the domain
-    WorkLimits limits{};                ///< runs beyond them are refused
-    unsigned threads = 0;               ///< number of threads; 0: one per core
+    /// Of the cells: 1 makes straight ones, and up to max_cell_order curved ones that follow the walls (MeshResult::curved).
+    /// Needs layers of topology quads or layered, or none; excludes sheets and rows of blades.
+    unsigned order = 1;
+    WorkLimits limits{};   ///< runs beyond them are refused
+    unsigned threads = 0;  ///< number of threads; 0: one per core
 };
 
 /// Throws OptionError where an option of any stage is out of range, where a y+ or the use of the flow lacks its
@@ -106,6 +110,7 @@ struct StageSeconds {
     double refinement = 0;           ///< triangles of the subdomains
     double assembly = 0;             ///< summaries and warnings; pieces are put together while others are refined
     double check = 0;                ///< the check
+    double curving = 0;              ///< curved cells and their proof
     double total = 0;                ///< the whole run
 };
 
@@ -188,7 +193,10 @@ struct MeshResult {
     /// The columns (between two neighbouring rays) of the cells of the layer, first of its triangles, which come first
     /// in the mesh, then of the quads. Empty for Delaunay layers and without layers.
     std::vector<std::uint32_t> columns;
-    std::vector<VertexId> column_origins;         ///< per column: the vertex that its first ray begins at
+    CurvedNodes curved;                    ///< with CaseOptions::order above 1: what makes the cells of the mesh curved
+    CurvingSummary curving;                ///< how well they follow the walls
+    CurvedCheck curved_check;              ///< the proof that they are valid
+    std::vector<VertexId> column_origins;  ///< per column: the vertex that its first ray begins at
     std::vector<ElementCoverage> layer_coverage;  ///< per element; empty without layers
     std::vector<OuterWallLayer> outer_walls;      ///< ground, floor and ceiling that have layers
     BorderSteps border_steps;                     ///< of the layer's outer border

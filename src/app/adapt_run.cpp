@@ -384,6 +384,7 @@ private:
 
 void run_adapt(const AdaptSettings& settings, MeshCase mesh_case, AdaptSolver& solver) {
     require_whole(mesh_case);
+    require_straight(mesh_case);
     require_consistent(mesh_case);
     solver.prepare(mesh_case);
     require_inputs(mesh_case);

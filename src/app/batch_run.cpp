@@ -137,6 +137,7 @@ MeshResult morphed_mesh(const MeshTemplate& reference, const MeshCase& mesh_case
 void make_mesh(const MeshCase& mesh_case, const MeshTemplate* reference, unsigned jobs, bool strict, Json& record) {
     require_consistent(mesh_case);
     require_whole(mesh_case);
+    if (reference != nullptr) require_straight(mesh_case);
     CaseOptions options = options_with_files(mesh_case);
     if (!mesh_case.options.limits.max_memory_bytes && options.limits.max_memory_bytes)
         *options.limits.max_memory_bytes /= jobs;  // what is free is for all that run at a time

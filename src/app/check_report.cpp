@@ -89,4 +89,13 @@ Json check_report(const MeshView& mesh, const MeshCheck& check, RegionOrigin reg
             {"hash", mesh_hash(mesh)}};
 }
 
+Json curved_check_report(unsigned order, const CurvedCheck& check) {
+    return {{"order", order},
+            {"valid", check.valid()},
+            {"invalid", check.invalid},
+            {"unproved", check.unproved},
+            {"min_scaled_jacobian", check.min_scaled_jacobian},
+            {"p01_scaled_jacobian", check.p01_scaled_jacobian}};
+}
+
 }  // namespace lamina::app

@@ -37,4 +37,7 @@ const char* kind_name(MarkerKind kind);
 /// Returns the result of `lamina check --json`.
 Json check_report(const MeshView& mesh, const MeshCheck& check, RegionOrigin regions, const Shortcomings& shortcomings);
 
+/// Returns what `lamina check --json` says of curved cells.
+Json curved_check_report(unsigned order, const CurvedCheck& check);
+
 }  // namespace lamina::app

@@ -171,8 +171,8 @@ void add_adapt_command(CLI::App& app) {
     add_round_options(*command, *arguments);
     add_goal_options(*command, *arguments);
     arguments->mesh =
-        add_mesh_options(*command, {"output", "format", "parts", "span", "span-cells", "span-ends", "wall-distance",
-                                    "background", "stream", "wall-data", "report", "html"});
+        add_mesh_options(*command, {"output", "format", "order", "parts", "span", "span-cells", "span-ends",
+                                    "wall-distance", "background", "stream", "wall-data", "report", "html"});
     command->callback([arguments] { adapt(*arguments); });
 }
 

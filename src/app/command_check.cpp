@@ -100,8 +100,8 @@ void check(const CheckArguments& arguments) {
     // A third of the memory is left to the mesh itself, of which large files keep in memory what the system has room for.
     const std::size_t memory =
         with_default_limits(memory_limit(arguments.max_memory)).max_memory_bytes.value_or(SIZE_MAX);
-    StoredMesh stored =
-        read_stored_mesh(arguments.mesh, {.format = arguments.format, .max_bytes_in_memory = memory / 4});
+    StoredMesh stored = read_stored_mesh(
+        arguments.mesh, {.format = arguments.format, .max_bytes_in_memory = memory / 4, .curved = true});
     options.max_memory_bytes = memory / 3 * 2;
     Shortcomings shortcomings;
     for (const std::string& wall : arguments.walls)
@@ -112,14 +112,23 @@ void check(const CheckArguments& arguments) {
     const RegionOrigin regions = require_regions(stored);
     const MeshView mesh = stored.view();
     const MeshCheck result = check_file_mesh(mesh, regions, options);
+    const CurvedNodes& nodes = stored.curved();
+    const CurvedCheck curved = nodes.order > 1 ? check_curved(mesh, nodes) : CurvedCheck{};
     if (arguments.require_delaunay && result.delaunay_violations > 0) {
         shortcomings.push_back(fmt::format("{} edges between isotropic triangles violate the Delaunay property",
                                            result.delaunay_violations));
     }
     if (!arguments.min_angle.empty()) require_angles(result.isotropic, options.min_angle_deg, shortcomings);
 
-    print_result(arguments.json ? to_text(check_report(mesh, result, regions, shortcomings))
-                                : check_summary(name, mesh, result, regions, shortcomings));
+    for (const MeshDefect& defect : curved.defects) shortcomings.push_back(defect.description);
+    if (arguments.json) {
+        Json report = check_report(mesh, result, regions, shortcomings);
+        if (nodes.order > 1) report["curved"] = curved_check_report(nodes.order, curved);
+        print_result(to_text(report));
+    } else {
+        print_result(check_summary(name, mesh, result, regions, shortcomings) +
+                     (nodes.order > 1 ? curved_line(nodes.order, curved) : ""));
+    }
     if (!result.valid()) {
         throw MeshError(fmt::format("{}: not valid, {} defects; the first: {}", name, result.defect_count,
                                     result.defects.front().description));

@@ -72,8 +72,8 @@ void add_case_command(CLI::App& app) {
     arguments->family = add_family_options(*command, 1);
     for (const char* const name : {"--ratio", "--base-level", "--table"})
         command->get_option(name)->needs(command->get_option("--levels"));
-    arguments->mesh =
-        add_mesh_options(*command, {"output", "format", "parts", "span", "span-cells", "span-ends", "wall-distance"});
+    arguments->mesh = add_mesh_options(
+        *command, {"output", "format", "order", "parts", "span", "span-cells", "span-ends", "wall-distance"});
     command->callback([arguments] { make_case(*arguments); });
 }
 

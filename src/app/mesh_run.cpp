@@ -85,16 +85,26 @@ MeshDestination destination_of_outputs(const MeshCase& mesh_case) {
         for (const std::filesystem::path& file : output_files(output, write_options(mesh_case)))
             destination.files.push_back({file, "option --output " + output});
     }
-    destination.require_writable = [&mesh_case] {
-        for (const std::string& output : mesh_case.outputs) check_writable(output, write_options(mesh_case));
+    const bool is_curved = mesh_case.options.order > 1;
+    destination.holds_curved_cells = true;
+    destination.require_writable = [&mesh_case, is_curved] {
+        for (const std::string& output : mesh_case.outputs) {
+            if (is_curved) require_curved_format(output, write_options(mesh_case));
+            check_writable(output, write_options(mesh_case));
+        }
     };
     destination.warnings = [&mesh_case](const MeshResult& result) {
         return is_for_openfoam(mesh_case) ? find_solver_warnings(FlowSolver::openfoam, result.mesh)
                                           : std::vector<Warning>{};
     };
     destination.write = [&mesh_case](const MeshResult& result) {
-        for (const std::string& output : mesh_case.outputs)
-            write_mesh(result.mesh, output, write_options(mesh_case, result.conditions.chord));
+        for (const std::string& output : mesh_case.outputs) {
+            const WriteOptions options = write_options(mesh_case, result.conditions.chord);
+            if (result.curved.order > 1)
+                write_curved_mesh(result.mesh, result.curved, output, options);
+            else
+                write_mesh(result.mesh, output, options);
+        }
     };
     return destination;
 }
@@ -107,6 +117,7 @@ std::vector<RunFile> files_written(const MeshCase& mesh_case, const MeshDestinat
 }
 
 void require_outputs(const MeshCase& mesh_case, const MeshDestination& destination) {
+    if (!destination.holds_curved_cells) require_straight(mesh_case);
     destination.require_writable();
     require_parts_taken(mesh_case.outputs, write_options(mesh_case));
     for (const auto& [name, option] : files_beside_mesh)
@@ -116,6 +127,11 @@ void require_outputs(const MeshCase& mesh_case, const MeshDestination& destinati
 
 void require_whole(const MeshCase& mesh_case) {
     if (mesh_case.stream) throw UsageError("option --stream: only 'lamina mesh' writes a mesh while it is made");
+}
+
+void require_straight(const MeshCase& mesh_case) {
+    if (mesh_case.options.order > 1)
+        throw UsageError("option --order: only 'lamina mesh', 'family' and 'batch' make curved cells");
 }
 
 void add_warnings_of_readers(const MeshCase& mesh_case, const MeshDestination& destination, MeshResult& result) {

@@ -21,6 +21,7 @@ struct MeshDestination {
     std::function<void()> require_writable;                           ///< throws where they certainly cannot be written
     std::function<std::vector<Warning>(const MeshResult&)> warnings;  ///< about what the readers make of the mesh
     std::function<void(const MeshResult&)> write;                     ///< writes them
+    bool holds_curved_cells = false;                                  ///< whether `write` knows MeshResult::curved
 };
 
 /// Returns how a case writes its mesh files; `chord` is what its lengths count.
@@ -59,6 +60,9 @@ void share_mesh_of_case(const MeshCase& mesh_case, const MeshDestination& destin
 
 /// Throws UsageError where the case asks for a mesh that is written while it is made: for commands that need all of it.
 void require_whole(const MeshCase& mesh_case);
+
+/// Throws UsageError for a case that asks for curved cells.
+void require_straight(const MeshCase& mesh_case);
 
 /// Sets the cells of the layer to quadrilaterals, which cell-centred solvers need, unless a case file or the command
 /// line chooses them.

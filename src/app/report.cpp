@@ -6,6 +6,7 @@
 
 #include "app/conditions_block.hpp"
 #include "app/coverage_share.hpp"
+#include "app/summary.hpp"
 
 namespace lamina::app {
 
@@ -53,6 +54,18 @@ Json input_report(const Geometry& geometry) {
                          {"surface", element.surface_notes}});
     }
     return input;
+}
+
+Json curved_report(const MeshResult& result) {
+    return {{"order", result.curved.order},
+            {"wall_edges", wall_edges(result.mesh)},
+            {"curved_wall_edges", result.curving.curved_edges},
+            {"reduced_wall_edges", result.curving.reduced_edges},
+            {"reduced_distance", result.curving.reduced_distance},
+            {"wall_distance", result.curving.wall_distance},
+            {"min_scaled_jacobian", result.curved_check.min_scaled_jacobian},
+            {"p01_scaled_jacobian", result.curved_check.p01_scaled_jacobian},
+            {"seconds", result.seconds.curving}};
 }
 
 Json seconds_report(const StageSeconds& seconds, double write_seconds) {
@@ -195,29 +208,31 @@ Json mesh_report(const MeshCase& mesh_case, const MeshResult& result, const Mesh
     quality["isotropic"]["oversized"] = result.refinement.oversized;
     quality["isotropic"]["refused_points"] = result.refinement.refused;
     quality["isotropic"]["mean_edge_over_size"] = result.mean_edge_over_size;
-    return {{"version", LAMINA_VERSION},
-            {"threads", result.threads},
-            {"input", input_report(result.geometry)},
-            {"conditions", conditions_report(mesh_case, result)},
-            {"vertices", facts.counts.vertices},
-            {"triangles", facts.counts.triangles},
-            {"quads", facts.counts.quads},
-            {"layer_triangles", facts.counts.layer_triangles},
-            {"isotropic_triangles", facts.counts.triangles - facts.counts.layer_triangles},
-            {"surface_vertices", result.surface_vertices},
-            {"decomposition", decomposition_report(result.decomposition)},
-            {"pieces",
-             {{"layer", result.layer_pieces},
-              {"inviscid", result.inviscid_pieces},
-              {"largest_inviscid", result.largest_inviscid_piece},
-              {"estimates_within_15_percent", result.estimates_within_15_percent}}},
-            {"layer_cells", layer_cells_report(result)},
-            {"warnings", warnings_report(result.warnings)},
-            {"estimate", estimate_report(result.estimate)},
-            {"seconds", seconds_report(result.seconds, write_seconds)},
-            {"thread_seconds", threads_report(result.thread_seconds)},
-            {"quality", quality},
-            {"hash", facts.hash}};
+    Json report = {{"version", LAMINA_VERSION},
+                   {"threads", result.threads},
+                   {"input", input_report(result.geometry)},
+                   {"conditions", conditions_report(mesh_case, result)},
+                   {"vertices", facts.counts.vertices},
+                   {"triangles", facts.counts.triangles},
+                   {"quads", facts.counts.quads},
+                   {"layer_triangles", facts.counts.layer_triangles},
+                   {"isotropic_triangles", facts.counts.triangles - facts.counts.layer_triangles},
+                   {"surface_vertices", result.surface_vertices},
+                   {"decomposition", decomposition_report(result.decomposition)},
+                   {"pieces",
+                    {{"layer", result.layer_pieces},
+                     {"inviscid", result.inviscid_pieces},
+                     {"largest_inviscid", result.largest_inviscid_piece},
+                     {"estimates_within_15_percent", result.estimates_within_15_percent}}},
+                   {"layer_cells", layer_cells_report(result)},
+                   {"warnings", warnings_report(result.warnings)},
+                   {"estimate", estimate_report(result.estimate)},
+                   {"seconds", seconds_report(result.seconds, write_seconds)},
+                   {"thread_seconds", threads_report(result.thread_seconds)},
+                   {"quality", quality},
+                   {"hash", facts.hash}};
+    if (result.curved.order > 1) report["curved"] = curved_report(result);
+    return report;
 }
 
 std::string to_text(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }

@@ -18,6 +18,12 @@ std::string summary_line(const std::string& label, const std::string& text);
 /// Returns the lines about the quality of a mesh.
 std::string quality_summary(const MeshCheck& check);
 
+/// Returns the number of edges of all walls.
+std::size_t wall_edges(const Mesh& mesh);
+
+/// Returns the line on curved cells.
+std::string curved_line(unsigned order, const CurvedCheck& check);
+
 /// Returns the summary of `lamina mesh` for a mesh of this size.
 std::string mesh_summary(const MeshCase& mesh_case, const MeshResult& result, const MeshCounts& counts,
                          double write_seconds);

@@ -16,9 +16,8 @@
 #include <lamina/error.hpp>
 
 #include "core/parallel.hpp"
-#include "mesh/cell_text.hpp"
 #include "mesh/curved_nodes.hpp"
-#include "mesh/jacobian_bounds.hpp"
+#include "mesh/prove_cells.hpp"
 
 namespace lamina::mesh {
 
@@ -384,24 +383,6 @@ double distance_from_curve(const MeshView& mesh, const WallCurve& wall, const Be
     return largest;
 }
 
-/// Returns the cells that are not proved valid, ascending.
-std::vector<std::size_t> cells_not_proved(const MeshView& mesh, const CurvedNodes& nodes) {
-    const CellEdges cells(mesh);
-    const auto blocks = core::parallel_blocks(cells.cells(), cells_per_block, [&](std::size_t begin, std::size_t end) {
-        std::vector<std::size_t> found;
-        CellNodes places;
-        for (std::size_t cell = begin; cell < end; ++cell)
-            if (bound_jacobian(static_cast<unsigned>(cells.corners(cell)), nodes.order,
-                               gather_nodes(mesh, nodes, cell, places))
-                    .verdict != CellVerdict::valid)
-                found.push_back(cell);
-        return found;
-    });
-    std::vector<std::size_t> all;
-    for (const auto& block : blocks) all.insert(all.end(), block.begin(), block.end());
-    return all;
-}
-
 }  // namespace
 
 std::uint32_t CellColumnNumbers::of(const MeshView& mesh, std::size_t cell) const {
@@ -429,24 +410,28 @@ CurvedCells curve_cells(const MeshView& mesh, unsigned order, std::span<const Wa
     });
 
     const NodeNumbers numbers(mesh, adjacency, order);
-    CurvedCells curved{number_nodes(mesh, numbers, order), {}};
+    CurvedCells curved{number_nodes(mesh, numbers, order), {}, {}};
     const NodePlacer placer(mesh, numbers, columns, order);
     std::vector<int> halvings(walls.size());
     for (;;) {
         placer.place_edges(adjacency, curved.nodes.points);
         placer.place_within_cells(curved.nodes.points);
-        const std::vector<std::size_t> cells = cells_not_proved(mesh, curved.nodes);
-        if (cells.empty()) break;
+        const CellProofs proofs = prove_cells(mesh, curved.nodes);
+        if (proofs.doubtful.empty()) {
+            curved.check = check_of(mesh, proofs);
+            break;
+        }
         std::vector<std::uint32_t> at_fault;
-        for (const std::size_t cell : cells)
-            placer.for_each_column(cell, adjacency, [&](std::uint32_t c) { at_fault.push_back(c); });
+        for (const DoubtfulCell& doubtful : proofs.doubtful)
+            placer.for_each_column(doubtful.cell, adjacency, [&](std::uint32_t c) { at_fault.push_back(c); });
         std::sort(at_fault.begin(), at_fault.end());
         at_fault.erase(std::unique(at_fault.begin(), at_fault.end()), at_fault.end());
         std::erase_if(at_fault, [&](std::uint32_t c) { return halvings[c] == max_halvings_of_bend; });
-        if (at_fault.empty())
-            throw MeshError(
-                fmt::format("the cells of order {} cannot be proved valid: {}", order, cell_text(mesh, cells.front())),
-                mesh.points[CellEdges(mesh).corner(cells.front(), 0).index()]);
+        if (at_fault.empty()) {
+            const CurvedCheck check = check_of(mesh, proofs);
+            throw MeshError(fmt::format("the cells of order {} are not valid: {}", order, check.defects[0].description),
+                            check.defects[0].at);
+        }
         for (const std::uint32_t c : at_fault) {
             const double share = ++halvings[c] == max_halvings_of_bend ? 0 : std::ldexp(1.0, -halvings[c]);
             set_bend(columns[c], mesh, walls[c], order, share);

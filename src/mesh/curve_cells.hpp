@@ -24,10 +24,11 @@ struct CellColumnNumbers {
     std::uint32_t of(const MeshView& mesh, std::size_t cell) const;
 };
 
-/// Nodes, and how well they follow the walls.
+/// Nodes, how well they follow the walls, and the proof of the cells.
 struct CurvedCells {
     CurvedNodes nodes;
     CurvingSummary summary;
+    CurvedCheck check;  ///< without defects
 };
 
 /// Makes the cells of a mesh curved cells of order p that follow the walls, and proves all of them valid. Parallel; the result

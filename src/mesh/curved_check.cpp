@@ -1,18 +1,19 @@
 // check_curved(): whether the lists of nodes fit the mesh, and whether each cell is proved valid.
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include <lamina/curved_mesh.hpp>
 
-#include "core/parallel.hpp"
 #include "mesh/cell_text.hpp"
 #include "mesh/curved_nodes.hpp"
 #include "mesh/defects.hpp"
-#include "mesh/jacobian_bounds.hpp"
+#include "mesh/prove_cells.hpp"
 
 namespace lamina::mesh {
 
@@ -81,48 +82,6 @@ void check_common_nodes(const MeshView& mesh, const CurvedNodes& nodes, DefectLi
     }
 }
 
-/// What is proved of a block of cells.
-struct ProvedCells {
-    static constexpr std::size_t bins = 100;
-
-    DefectList defects;
-    std::size_t invalid = 0, unproved = 0, worst = 0;
-    double min_scaled = HUGE_VAL;
-    std::array<std::size_t, bins> histogram{};  ///< of scaled determinants
-
-    void add(const MeshView& mesh, std::size_t cell, const JacobianBounds& bounds) {
-        if (bounds.verdict != CellVerdict::valid) {
-            const bool is_invalid = bounds.verdict == CellVerdict::invalid;
-            ++(is_invalid ? invalid : unproved);
-            defects.add([&] {
-                return MeshDefect{
-                    (is_invalid ? "curved inside out: " : "curved and not proved valid: ") + cell_text(mesh, cell),
-                    mesh.points[CellEdges(mesh).corner(cell, 0).index()]};
-            });
-        }
-        const double scaled = bounds.scaled();
-        ++histogram[std::min(static_cast<std::size_t>(scaled * bins), bins - 1)];
-        if (scaled >= min_scaled) return;
-        min_scaled = scaled;
-        worst = cell;
-    }
-    void append(ProvedCells&& other) {
-        defects.append(std::move(other.defects));
-        invalid += other.invalid;
-        unproved += other.unproved;
-        for (std::size_t i = 0; i < bins; ++i) histogram[i] += other.histogram[i];
-        if (other.min_scaled >= min_scaled) return;
-        min_scaled = other.min_scaled;
-        worst = other.worst;
-    }
-    /// Returns the lower end of the bin that holds the first percentile.
-    double first_percentile(std::size_t cells) const {
-        std::size_t bin = 0, below = histogram[0];
-        while (bin + 1 < bins && below * 100 < cells) below += histogram[++bin];
-        return static_cast<double>(bin) / static_cast<double>(bins);
-    }
-};
-
 }  // namespace
 
 }  // namespace lamina::mesh
@@ -132,30 +91,18 @@ namespace lamina {
 using namespace mesh;
 
 CurvedCheck check_curved(const MeshView& mesh, const CurvedNodes& nodes) {
-    CurvedCheck check;
-    ProvedCells all;
-    const CellEdges cells(mesh);
-    if (check_lists(mesh, nodes, all.defects)) {
-        check_common_nodes(mesh, nodes, all.defects);
-        auto blocks = core::parallel_blocks(cells.cells(), cells_per_block, [&](std::size_t begin, std::size_t end) {
-            ProvedCells block;
-            CellNodes places;
-            for (std::size_t cell = begin; cell < end; ++cell)
-                block.add(mesh, cell,
-                          bound_jacobian(static_cast<unsigned>(cells.corners(cell)), nodes.order,
-                                         gather_nodes(mesh, nodes, cell, places)));
-            return block;
-        });
-        for (ProvedCells& block : blocks) all.append(std::move(block));
+    DefectList of_lists;
+    if (!check_lists(mesh, nodes, of_lists)) {
+        CurvedCheck check;
+        check.defects = std::move(of_lists.kept);
+        check.defect_count = of_lists.count;
+        return check;
     }
-    check.defects = std::move(all.defects.kept);
-    check.defect_count = all.defects.count;
-    check.invalid = all.invalid;
-    check.unproved = all.unproved;
-    if (!std::isfinite(all.min_scaled)) return check;
-    check.min_scaled_jacobian = all.min_scaled;
-    check.min_scaled_jacobian_at = mesh.points[cells.corner(all.worst, 0).index()];
-    check.p01_scaled_jacobian = all.first_percentile(cells.cells());
+    check_common_nodes(mesh, nodes, of_lists);
+    CurvedCheck check = check_of(mesh, prove_cells(mesh, nodes));
+    check.defect_count += of_lists.count;
+    check.defects.insert(check.defects.begin(), of_lists.kept.begin(), of_lists.kept.end());
+    check.defects.resize(std::min(check.defects.size(), DefectList::max_kept));
     return check;
 }
 

@@ -64,7 +64,7 @@ struct ProductTerm {
 struct DeterminantRule {
     CoefficientGrid grid;  ///< of the determinant
     std::size_t nodes = 0;
-    std::vector<double> to_bernstein;  ///< whole numbers: per coefficient of the map, the factors of all nodes
+    std::vector<double> to_bernstein;  ///< whole numbers: per node, its factors in all coefficients of the map
     double largest_row = 0;            ///< largest sum of the sizes of the factors of a coefficient
     std::vector<Difference> along, across;
     std::vector<ProductTerm> terms;
@@ -125,7 +125,7 @@ void add_conversion(unsigned corners, unsigned p, const CoefficientGrid& map, De
         for (std::size_t node = 0; node < rule.nodes; ++node) {
             const double factor =
                 corners == 3 ? triangle_factor(p, lattice[node], a, b) : square_factor(p, lattice[node], a, b);
-            rule.to_bernstein[map.at(a, b) * rule.nodes + node] = factor;
+            rule.to_bernstein[node * rule.nodes + map.at(a, b)] = factor;
             sum += std::abs(factor);
         }
         rule.largest_row = std::max(rule.largest_row, sum);
@@ -180,9 +180,12 @@ const DeterminantRule& rule_of(unsigned corners, unsigned order) {
 
 // ---- coefficients of one cell ----------------------------------------------------------------------------------------
 
+/// Coefficients of the determinant, of which all shapes and orders leave some at the end unused.
+using Coefficients = std::array<double, 4 * max_order * max_order>;
+
 /// Coefficients of the determinant on a part of the cell, each of which is within `radius` of the exact one.
 struct Part {
-    std::vector<double> coefficients;
+    Coefficients coefficients{};
     double radius = 0;
     int halvings = 0;
 };
@@ -194,7 +197,7 @@ struct Magnitude {
 
 /// The derivatives of one coordinate, but for a factor, and how large they are.
 struct Derivatives {
-    std::vector<double> along, across;
+    std::array<double, (max_order + 1) * max_order> along{}, across{};
     Magnitude largest;
 };
 
@@ -208,17 +211,14 @@ Derivatives derivatives_of(const DeterminantRule& rule, std::span<const Point> n
         local[i] = coordinate(nodes[i]) - coordinate(nodes[0]);
         largest = std::max(largest, std::abs(local[i]));
     }
-    for (std::size_t a = 0; a < n; ++a) {
-        double sum = 0;
-        for (std::size_t i = 0; i < n; ++i) sum += rule.to_bernstein[a * n + i] * local[i];
-        map[a] = sum;
-    }
+    // Node by node, so that the coefficients are sums side by side.
+    for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t a = 0; a < n; ++a) map[a] += rule.to_bernstein[i * n + a] * local[i];
     Derivatives result;
-    const auto add = [&](const std::vector<Difference>& differences, std::vector<double>& values) {
-        values.reserve(differences.size());
-        for (const Difference& d : differences) {
-            values.push_back(map[d.plus] - map[d.minus]);
-            result.largest.size = std::max(result.largest.size, std::abs(values.back()));
+    const auto add = [&](const std::vector<Difference>& differences, auto& values) {
+        for (std::size_t i = 0; i < differences.size(); ++i) {
+            values[i] = map[differences[i].plus] - map[differences[i].minus];
+            result.largest.size = std::max(result.largest.size, std::abs(values[i]));
         }
     };
     add(rule.along, result.along);
@@ -240,7 +240,7 @@ double radius_of(const DeterminantRule& rule, const Magnitude& x, const Magnitud
 Part whole_cell(const DeterminantRule& rule, std::span<const Point> nodes) {
     const Derivatives x = derivatives_of(rule, nodes, [](Point p) { return p.x; });
     const Derivatives y = derivatives_of(rule, nodes, [](Point p) { return p.y; });
-    Part part{std::vector<double>(rule.grid.size()), radius_of(rule, x.largest, y.largest), 0};
+    Part part{{}, radius_of(rule, x.largest, y.largest), 0};
     for (const ProductTerm& t : rule.terms)
         part.coefficients[t.coefficient] +=
             t.weight * (x.along[t.along] * y.across[t.across] - y.along[t.along] * x.across[t.across]);
@@ -252,7 +252,7 @@ Part whole_cell(const DeterminantRule& rule, std::span<const Point> nodes) {
 /// Halves a polynomial in one variable by de Casteljau's algorithm. Its n + 1 coefficients are at places place(k); `first`
 /// holds them, and those of the first half afterwards.
 template <class Place>
-void halve_row(unsigned n, Place place, std::vector<double>& first, std::vector<double>& second) {
+void halve_row(unsigned n, Place place, Coefficients& first, Coefficients& second) {
     for (unsigned k = 0; k <= n; ++k) second[place(k)] = first[place(k)];
     for (unsigned level = 0; level <= n; ++level) {
         first[place(level)] = second[place(0)];
@@ -261,8 +261,8 @@ void halve_row(unsigned n, Place place, std::vector<double>& first, std::vector<
 }
 
 /// Exchanges i and j of the square, so that the next halving is in the other direction.
-std::vector<double> turned_square(const CoefficientGrid& grid, const std::vector<double>& part) {
-    std::vector<double> turned(part.size());
+Coefficients turned_square(const CoefficientGrid& grid, const Coefficients& part) {
+    Coefficients turned{};
     grid.for_each([&](unsigned i, unsigned j) { turned[grid.at(j, i)] = part[grid.at(i, j)]; });
     return turned;
 }
@@ -276,8 +276,8 @@ std::vector<double> turned_square(const CoefficientGrid& grid, const std::vector
 ///      a--m--b                a--m
 ///
 /// Corner a has the exponent i, b has j, and c the rest.
-std::vector<double> turned_triangle(const CoefficientGrid& grid, const std::vector<double>& part, bool is_first) {
-    std::vector<double> turned(part.size());
+Coefficients turned_triangle(const CoefficientGrid& grid, const Coefficients& part, bool is_first) {
+    Coefficients turned{};
     grid.for_each([&](unsigned i, unsigned j) {
         const unsigned k = grid.n - i - j;
         turned[is_first ? grid.at(k, i) : grid.at(j, k)] = part[grid.at(i, j)];
@@ -286,26 +286,26 @@ std::vector<double> turned_triangle(const CoefficientGrid& grid, const std::vect
 }
 
 /// Halves a part: the square across i, and the triangle across the edge between its corners of exponents i and j.
-std::pair<Part, Part> halves_of(const CoefficientGrid& grid, Part part) {
+std::pair<Part, Part> halves_of(const CoefficientGrid& grid, Part first) {
     double largest = 0;
-    for (const double c : part.coefficients) largest = std::max(largest, std::abs(c));
-    Part second = part;
+    for (const double c : first.coefficients) largest = std::max(largest, std::abs(c));
+    Part second = first;
     for (unsigned row = 0; row <= grid.m; ++row) {
         if (grid.corners == 4)
             halve_row(
-                grid.n, [&](unsigned k) { return grid.at(k, row); }, part.coefficients, second.coefficients);
+                grid.n, [&](unsigned k) { return grid.at(k, row); }, first.coefficients, second.coefficients);
         else
             halve_row(
-                grid.n - row, [&](unsigned k) { return grid.at(grid.n - row - k, k); }, part.coefficients,
+                grid.n - row, [&](unsigned k) { return grid.at(grid.n - row - k, k); }, first.coefficients,
                 second.coefficients);
     }
-    for (Part* half : {&part, &second}) {
+    for (Part* half : {&first, &second}) {
         half->coefficients = grid.corners == 4 ? turned_square(grid, half->coefficients)
-                                               : turned_triangle(grid, half->coefficients, half == &part);
+                                               : turned_triangle(grid, half->coefficients, half == &first);
         half->radius += (grid.n + 1) * rounding_unit * largest;  // each level of averages rounds
         ++half->halvings;
     }
-    return {std::move(part), std::move(second)};
+    return {first, second};
 }
 
 }  // namespace
@@ -313,27 +313,28 @@ std::pair<Part, Part> halves_of(const CoefficientGrid& grid, Part part) {
 JacobianBounds bound_jacobian(unsigned corners, unsigned order, std::span<const Point> nodes) {
     assert(nodes.size() == nodes_of_cell(corners, order));
     const DeterminantRule& rule = rule_of(corners, order);
-    std::vector<Part> undecided{whole_cell(rule, nodes)};
-    const auto largest_of = [](const Part& part) {
-        return *std::max_element(part.coefficients.begin(), part.coefficients.end());
-    };
-    JacobianBounds bounds{.upper = rule.scale * (largest_of(undecided.front()) + undecided.front().radius)};
+    const auto of_part = [&](const Part& part) { return std::span(part.coefficients).first(rule.grid.size()); };
+    const auto largest_of = [&](const Part& part) { return *std::ranges::max_element(of_part(part)); };
+    Part part = whole_cell(rule, nodes);
+    JacobianBounds bounds{.upper = rule.scale * (largest_of(part) + part.radius)};
+    std::vector<Part> undecided;
     double lower = HUGE_VAL;
-    while (!undecided.empty()) {
-        Part part = std::move(undecided.back());
-        undecided.pop_back();
+    for (;;) {
         for (const std::size_t corner : rule.corners)
             if (part.coefficients[corner] < -part.radius) return {CellVerdict::invalid, 0, bounds.upper};
-        const double smallest = *std::min_element(part.coefficients.begin(), part.coefficients.end()) - part.radius;
+        const double smallest = *std::ranges::min_element(of_part(part)) - part.radius;
         if (smallest > 0) {
             lower = std::min(lower, smallest);
+            if (undecided.empty()) break;
+            part = undecided.back();
+            undecided.pop_back();
             continue;
         }
         // What is not above its own error cannot be proved positive by any number of halvings.
         if (part.halvings == max_halvings || !(largest_of(part) > part.radius)) return bounds;
-        auto [first, second] = halves_of(rule.grid, std::move(part));
-        undecided.push_back(std::move(first));
-        undecided.push_back(std::move(second));
+        const auto [first, second] = halves_of(rule.grid, part);
+        undecided.push_back(first);
+        part = second;
     }
     constexpr double for_rounding_of_scale = 1 - 0x1p-50;
     return {CellVerdict::valid, for_rounding_of_scale * rule.scale * lower, bounds.upper};

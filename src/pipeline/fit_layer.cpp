@@ -201,7 +201,7 @@ bool all_layers_fit(const layers::Rays& rays) {
 /// below division points (docs/decisions/0009). `grow` makes rays on walls. Finer walls ask for finer ones beside them, which
 /// three rounds of halving reach.
 void refine_walls_below_borders(const SurfaceOptions& surface, double least_gradation, PreparedWalls& walls,
-                                const std::function<FittedLayer(Geometry)>& grow,
+                                const std::function<FittedLayer(surface::PreparedSurfaces)>& grow,
                                 std::vector<SizeSource>& on_outer_walls, FittedLayer& fitted) {
     constexpr int max_rounds = 3;
     for (int round = 0; round < max_rounds; ++round) {
@@ -216,9 +216,10 @@ void refine_walls_below_borders(const SurfaceOptions& surface, double least_grad
             else if (fitted.outer_walls[wall.element - fitted.geometry.elements.size()].first_height > 0)
                 on_outer_walls.push_back({.a = wall.a, .b = wall.b, .size = wall.spacing});
         }
-        Geometry prepared = surface::prepare_within(walls.given, surface, walls.limits, fitted.conditions.chord);
+        surface::PreparedSurfaces prepared =
+            surface::prepare_with_curves(walls.given, surface, walls.limits, fitted.conditions.chord);
         // The rest are stretches that keep their given points.
-        if (same_points(prepared, fitted.geometry) && on_outer_walls.size() == sources) return;
+        if (same_points(prepared.geometry, fitted.geometry) && on_outer_walls.size() == sources) return;
         fitted = grow(std::move(prepared));
     }
 }
@@ -271,8 +272,9 @@ FittedLayer fit_layer(PreparedWalls walls, const CaseOptions& options, const Ref
     const LayerOptions& layer = options.layer;
     const layers::BorderOptions border = border_options(options, conditions.chord, {});
     std::vector<SizeSource> on_outer_walls;
-    const auto grow = [&](Geometry prepared) {
-        FittedLayer fitted = grow_within(options, std::move(prepared), conditions, growth, on_outer_walls);
+    const auto grow = [&](surface::PreparedSurfaces prepared) {
+        FittedLayer fitted = grow_within(options, std::move(prepared.geometry), conditions, growth, on_outer_walls);
+        fitted.curves = std::move(prepared.curves);
         fitted.wakes = wakes;
         fitted.border = border;
         request_sizes(options.sizing, fitted);

@@ -21,7 +21,7 @@ namespace lamina::pipeline {
 /// Walls as they are given and as they are prepared, with the limits on their spacing.
 struct PreparedWalls {
     const Geometry& given;
-    Geometry prepared;
+    surface::PreparedSurfaces prepared;
     surface::SpacingLimits limits;
 };
 
@@ -32,7 +32,8 @@ struct FittedLayer {
     decoupling::FarField far_field;
     std::vector<OuterWallFacts> outer_walls;  ///< those of the far field
     layers::Rays rays;
-    LineGraph lines{};  ///< those inside the domain
+    LineGraph lines{};                          ///< those inside the domain
+    std::vector<surface::CurvedEdge> curves{};  ///< of the walls, for curved cells
     sizing::SizeRequests requests{};
     std::vector<ElementWake> wakes{};       ///< of the flow, one per element or none
     layers::BorderOptions border{};         ///< how the border is divided, but for the sources of the requests

@@ -9,6 +9,7 @@
 #include "core/reproducible_math.hpp"
 #include "decoupling/far_field.hpp"
 #include "geometry/symmetry.hpp"
+#include "pipeline/curve_mesh.hpp"
 #include "pipeline/derived_options.hpp"
 #include "pipeline/internal_lines.hpp"
 #include "sizing/requests.hpp"
@@ -155,6 +156,7 @@ void validate(const CaseOptions& options) {
     validate(options.refine);
     require_in_range(pipeline_rows(), options);
     validate_lines(options);
+    validate_order(options);
     const bool by_y_plus = options.layer.enabled && std::holds_alternative<YPlus>(options.layer.first_height);
     if (by_y_plus && !options.conditions.reynolds && !options.conditions.velocity)
         throw OptionError("y_plus", "needs reynolds, or velocity and viscosity");
@@ -178,6 +180,7 @@ namespace lamina::pipeline {
 surface::SpacingLimits spacing_limits(const CaseOptions& options, const layers::LayerGrowth& growth) {
     surface::SpacingLimits limits;
     limits.max_turning_deg = options.layer.max_ray_angle_deg;
+    limits.points_between = points_on_curves(options.order);
     if (options.layer.equal_fans) limits.fan_parts = layers::equal_fan_parts(options.layer);
     // The layer's border over a fan of rays has edges of height x ray angle, and grows no faster than its gradation.
     // Where the wall's spacing exceeds this, border edges are divided, and the rows below fan out to the division

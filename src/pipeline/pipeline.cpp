@@ -10,6 +10,7 @@
 #include <lamina/threads.hpp>
 
 #include "decoupling/far_field.hpp"
+#include "pipeline/curve_mesh.hpp"
 #include "pipeline/derived_options.hpp"
 #include "pipeline/fit_layer.hpp"
 #include "pipeline/flow_guidance.hpp"
@@ -79,14 +80,14 @@ PreparedWalls prepare_walls(const Geometry& given, const CaseOptions& options, c
                             const WorkBudget& budget) {
     PreparedWalls walls{given, {}, spacing_limits(options, growth)};
     walls.limits.walls.assign(spacings.begin(), spacings.end());
-    walls.prepared = surface::prepare_within(given, options.surface, walls.limits, conditions.chord);
+    walls.prepared = surface::prepare_with_curves(given, options.surface, walls.limits, conditions.chord);
     const decoupling::FarField far_field =
-        decoupling::place_far_field(bounding_box(walls.prepared), conditions.chord, options.far_field);
-    sizing::require_within_limits(options.sizing, sized_bodies(walls.prepared, conditions), far_field.box(),
+        decoupling::place_far_field(bounding_box(walls.prepared.geometry), conditions.chord, options.far_field);
+    sizing::require_within_limits(options.sizing, sized_bodies(walls.prepared.geometry, conditions), far_field.box(),
                                   budget.limits);
     if (options.layer.enabled) {
-        require_layers_within(growth, walls.prepared, budget);
-        require_walls_within(options.surface, walls.prepared, budget);
+        require_layers_within(growth, walls.prepared.geometry, budget);
+        require_walls_within(options.surface, walls.prepared.geometry, budget);
     }
     return walls;
 }
@@ -130,6 +131,11 @@ MadeMesh run(const Geometry& whole, CaseOptions options, MeshDriver& driver, Sta
     MadeMesh made = make_mesh_until_angles_hold(fitted, options, driver, clock);
 
     MeshResult& result = made.result;
+    if (options.order > 1) {
+        clock.begin("curving");
+        curve_mesh(options.order, fitted.curves, result);
+        clock.end(&StageSeconds::curving);
+    }
     if (guidance.flow)
         result.warnings.insert(result.warnings.begin(), guidance.flow->warnings.begin(), guidance.flow->warnings.end());
     result.flow = std::move(guidance.flow);
@@ -205,6 +211,7 @@ MeshResult generate_mesh(const std::vector<std::string>& inputs, const CaseOptio
 StreamedMesh stream_mesh(const std::vector<std::string>& inputs, const CaseOptions& options, const OpenSink& open_sink,
                          const Progress& progress) {
     if (!options.lines.empty()) throw OptionError("line", "lines need the mesh as a whole: leave --stream out");
+    if (options.order > 1) throw OptionError("order", "curved cells need the mesh as a whole: leave --stream out");
     if (!options.geometry.sheets.empty())
         throw OptionError("sheet", "sheets need the mesh as a whole: leave --stream out");
     StreamingDriver driver(open_sink);
@@ -215,6 +222,7 @@ StreamedMesh stream_mesh(const std::vector<std::string>& inputs, const CaseOptio
 SharedMesh share_mesh(const std::vector<std::string>& inputs, const CaseOptions& options, Ranks& ranks,
                       const std::optional<std::filesystem::path>& beside, const Progress& progress) {
     if (!options.lines.empty()) throw OptionError("line", "lines are made by one process: leave mpirun out");
+    if (options.order > 1) throw OptionError("order", "curved cells are made by one process: leave mpirun out");
     if (!options.geometry.sheets.empty())
         throw OptionError("sheet", "sheets are made by one process: leave mpirun out");
     SharingDriver driver(core::connected(ranks), beside);

@@ -1,0 +1,22 @@
+// The last stage, for curved cells: the walls that the mesh was made on become curves again.
+#pragma once
+
+#include <span>
+
+#include <lamina/pipeline.hpp>
+
+#include "surface/curved_edge.hpp"
+
+namespace lamina::pipeline {
+
+/// Throws OptionError where the order of cells is out of range, or goes with options that know no curved cells.
+void validate_order(const CaseOptions& options);
+
+/// Returns the number of points on the curve of each edge of a wall: nodes, and points between to measure by.
+inline std::size_t points_on_curves(unsigned order) { return order > 1 ? 2 * std::size_t{order} - 1 : 0; }
+
+/// Makes the cells of a mesh follow these curves of its walls, proves them valid, and records both in the result. Throws MeshError where the cells of the
+/// layer form no columns, and OptionError where an element has sheets. Precondition: order > 1.
+void curve_mesh(unsigned order, std::span<const surface::CurvedEdge> curves, MeshResult& result);
+
+}  // namespace lamina::pipeline

@@ -1,0 +1,278 @@
+// Curved cells: proved valid over all kinds of layers, and as near to exact walls as their order promises.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <lamina/error.hpp>
+#include <lamina/io.hpp>
+#include <lamina/stream.hpp>
+
+#include "pipeline/cases.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace lamina::test {
+namespace {
+
+using shapes::Outline;
+
+CaseOptions curved_options(unsigned order, LayerTopology topology = LayerTopology::quads) {
+    CaseOptions options;
+    options.layer = {.first_height = 1e-5, .layers = 25, .topology = topology};
+    options.far_field.size = 10;
+    options.order = order;
+    return options;
+}
+
+void expect_proved(const MeshResult& result, unsigned order) {
+    const CurvedCheck check = check_curved(result.mesh, result.curved);
+    EXPECT_TRUE(check.valid()) << (check.defects.empty() ? "" : check.defects[0].description);
+    EXPECT_EQ(result.curved.order, order);
+    EXPECT_EQ(check.min_scaled_jacobian, result.curved_check.min_scaled_jacobian);
+    EXPECT_GT(check.min_scaled_jacobian, 0);
+    EXPECT_GT(result.curving.curved_edges, 0u);
+}
+
+/// Returns the largest distance of the curved edges of the walls, sampled between nodes, by a measure of points.
+double wall_error(const MeshResult& result, const std::function<double(Point)>& distance_of) {
+    const unsigned p = result.curved.order;
+    const std::vector<Point>& vertices = result.mesh.points;
+    double largest = 0;
+    std::size_t first = 0;
+    for (const Marker& marker : result.mesh.markers) {
+        for (const Segment& edge : marker.edges) {
+            std::vector<Point> nodes{vertices[edge.a.index()]};
+            for (unsigned k = 0; k + 1 < p; ++k)
+                nodes.push_back(result.curved.points[result.curved.marker_nodes[first++].index() - vertices.size()]);
+            nodes.push_back(vertices[edge.b.index()]);
+            if (marker.kind != MarkerKind::wall) continue;
+            for (int s = 1; s < 16; ++s) {
+                Point at{0, 0};
+                for (unsigned i = 0; i <= p; ++i) {
+                    double factor = 1;
+                    for (unsigned k = 0; k <= p; ++k)
+                        if (k != i) factor *= (p * s / 16.0 - k) / (static_cast<double>(i) - k);
+                    at = at + factor * nodes[i];
+                }
+                largest = std::max(largest, distance_of(at));
+            }
+        }
+    }
+    return largest;
+}
+
+/// Returns the distance from the sharp NACA 0012, whose half thickness is a polynomial in s = sqrt(x), by Newton's method.
+double distance_from_naca_0012(Point p) {
+    const double y = std::abs(p.y);
+    const auto thickness = [](double s) {
+        return 0.6 * s * (0.2969 + s * (-0.1260 + s * s * (-0.3516 + s * s * (0.2843 - 0.1036 * s * s))));
+    };
+    const auto at = [&](double s) { return Point{s * s, thickness(s)}; };
+    double best = HUGE_VAL, nearest = 0;
+    const double guess = std::sqrt(std::max(p.x, 0.0));
+    for (int k = -200; k <= 200; ++k) {
+        const double s = std::clamp(guess + 1e-3 * k, 0.0, 1.0);
+        if (const double d = distance(at(s), {p.x, y}); d < best) {
+            best = d;
+            nearest = s;
+        }
+    }
+    double step = 1e-3;
+    for (int round = 0; round < 120; ++round) {
+        for (const double s : {nearest - step, nearest + step})
+            if (s >= 0 && s <= 1 && distance(at(s), {p.x, y}) < best) {
+                best = distance(at(s), {p.x, y});
+                nearest = s;
+            }
+        step *= 0.8;
+    }
+    return best;
+}
+
+Outline ellipse(double thickness, std::size_t points) {
+    Outline outline;
+    for (std::size_t i = 0; i < points; ++i) {
+        const double angle = 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(points);
+        outline.push_back({0.5 + 0.5 * std::cos(angle), 0.5 * thickness * std::sin(angle)});
+    }
+    return outline;
+}
+
+/// Returns about the distance from that ellipse: its equation over the length of its gradient.
+double distance_from_ellipse(double thickness, Point p) {
+    const double x = (p.x - 0.5) / 0.5, y = p.y / (0.5 * thickness);
+    return std::abs(x * x + y * y - 1) / (2 * std::hypot(x / 0.5, y / (0.5 * thickness)));
+}
+
+/// Returns a mesh without layers on a wall with so many edges, which are as short everywhere as a small sag asks for.
+MeshResult coarse_mesh(const Geometry& geometry, unsigned order, std::size_t edges) {
+    CaseOptions options = curved_options(order);
+    options.layer.enabled = false;
+    options.surface = {.treatment = SurfaceTreatment::resample,
+                       .points = edges,
+                       .exact_points = true,
+                       .max_ratio = 1.5,
+                       .gradation = 0.4,
+                       .trailing_edge_spacing = 0.03,
+                       .tolerance = 1e-6};
+    options.sizing.gradation = 0.4;
+    return generate_mesh(geometry, options);
+}
+
+TEST(CurvedCells, ConvergeToExactWallsWithTheirOrder) {
+    const Geometry section = make_geometry(read_inputs(std::vector<std::string>{"naca:0012"}));
+    struct Wall {
+        Geometry geometry;
+        std::function<double(Point)> distance_of;
+    };
+    const std::vector<Wall> walls{
+        {section, distance_from_naca_0012},
+        {shapes::geometry({ellipse(0.3, 4000)}), [](Point p) { return distance_from_ellipse(0.3, p); }},
+        {shapes::geometry({ellipse(1, 4000)}), [](Point p) { return distance_from_ellipse(1, p); }}};
+    for (std::size_t w = 0; w < walls.size(); ++w)
+        for (unsigned order = 2; order <= max_cell_order; ++order) {
+            SCOPED_TRACE(testing::Message() << "wall " << w << ", order " << order);
+            const MeshResult coarse = coarse_mesh(walls[w].geometry, order, 60);
+            const MeshResult fine = coarse_mesh(walls[w].geometry, order, 120);
+            expect_proved(coarse, order);
+            expect_proved(fine, order);
+            const double first = wall_error(coarse, walls[w].distance_of),
+                         second = wall_error(fine, walls[w].distance_of);
+            EXPECT_GE(std::log2(first / second), order + 1 - 0.1) << first << " to " << second;
+            if (w == 0 && order == 4) {
+                EXPECT_LT(first, 1e-8);
+            }
+        }
+}
+
+TEST(CurvedCells, AreValidOverLayersOfEachTopology) {
+    for (const LayerTopology topology : {LayerTopology::quads, LayerTopology::layered})
+        for (unsigned order = 2; order <= max_cell_order; ++order) {
+            SCOPED_TRACE(testing::Message() << static_cast<int>(topology) << ", order " << order);
+            const MeshResult result = generate_mesh({"naca:0012"}, curved_options(order, topology));
+            expect_proved(result, order);
+            EXPECT_EQ(result.curving.reduced_edges, 0u);
+            EXPECT_EQ(result.curving.curved_edges, result.mesh.markers[0].edges.size());
+        }
+}
+
+TEST(CurvedCells, ChangeNothingOfTheStraightMesh) {
+    for (const bool has_layer : {true, false}) {
+        CaseOptions options = curved_options(3);
+        options.layer.enabled = has_layer;
+        const MeshResult curved = generate_mesh({"naca:4412:90:blunt"}, options);
+        options.order = 1;
+        const MeshResult straight = generate_mesh({"naca:4412:90:blunt"}, options);
+        EXPECT_EQ(mesh_hash(curved.mesh), mesh_hash(straight.mesh));
+        EXPECT_EQ(curved.mesh.points, straight.mesh.points);
+        EXPECT_TRUE(straight.curved.points.empty());
+        expect_proved(curved, 3);
+    }
+}
+
+TEST(CurvedCells, AreTheSameOnAnyNumberOfThreads) {
+    CaseOptions options = curved_options(3);
+    std::vector<Point> nodes;
+    for (const unsigned threads : {1u, 3u}) {
+        options.threads = threads;
+        const MeshResult result = generate_mesh({"naca:0012"}, options);
+        if (threads > 1) {
+            EXPECT_EQ(result.curved.points, nodes);
+        }
+        nodes = result.curved.points;
+    }
+}
+
+TEST(CurvedCells, OfTurnedAndMirroredWallsAreValidAsWell) {
+    const Outline slat = shapes::moved(naca("4412", 80), -0.3, 0.25, {-0.3, -0.05}), main = naca("2412", 140);
+    const auto turned = [](Outline outline) {
+        for (Point& p : outline) p = {-p.y, p.x};
+        return outline;
+    };
+    const auto mirrored = [](Outline outline) {
+        for (Point& p : outline) p.y = -p.y;
+        std::reverse(outline.begin() + 1, outline.end());
+        return outline;
+    };
+    for (const auto& change :
+         std::vector<std::function<Outline(Outline)>>{[](Outline o) { return o; }, turned, mirrored}) {
+        const MeshResult result = mesh_of({change(slat), change(main)}, curved_options(3));
+        expect_proved(result, 3);
+        EXPECT_EQ(result.curving.reduced_edges, 0u);
+    }
+}
+
+TEST(CurvedCells, KeepCornersAndBasesAndPointsGiven) {
+    // All edges of a box are straight, whether points are resampled or kept.
+    const Outline box = shapes::refined(Outline{{1, 0}, {1, 0.2}, {0, 0.2}, {0, 0}}, 12);
+    CaseOptions options = curved_options(3);
+    const MeshResult straight = mesh_of({box}, options);
+    EXPECT_LT(straight.curving.wall_distance, 1e-15);
+    options.surface.treatment = SurfaceTreatment::keep;
+    const MeshResult kept = mesh_of({naca("0012", 200)}, options);
+    EXPECT_EQ(kept.curving.curved_edges, 0u);
+    EXPECT_TRUE(kept.curved_check.valid());
+}
+
+TEST(CurvedCells, AreReadBackFromMshFiles) {
+    const TemporaryFolder folder;
+    for (const LayerTopology topology : {LayerTopology::quads, LayerTopology::layered})
+        for (unsigned order = 2; order <= max_cell_order; ++order) {
+            CaseOptions options = curved_options(order, topology);
+            options.layer.layers = 5;
+            const MeshResult result = generate_mesh({"naca:0012"}, options);
+            for (const char* const format : {"msh41", "msh41-binary", "msh22", "msh22-binary"}) {
+                const std::filesystem::path file = folder.path() / "curved.msh";
+                write_curved_mesh(result.mesh, result.curved, file, {.format = format});
+                const CurvedMesh read = read_curved_mesh(file);
+                EXPECT_EQ(mesh_hash(read.mesh), mesh_hash(result.mesh));
+                EXPECT_EQ(read.nodes.order, order);
+                EXPECT_EQ(read.nodes.points, result.curved.points);
+                EXPECT_TRUE(check_mesh(read.mesh).valid());
+                EXPECT_TRUE(check_curved(read.mesh, read.nodes).valid());
+                EXPECT_THROW(read_mesh(file), InputError);
+            }
+        }
+}
+
+TEST(CurvedCells, ThatAreWrongAreFound) {
+    MeshResult result = generate_mesh({"naca:0012"}, curved_options(2));
+    CurvedNodes nodes = result.curved;
+    nodes.points[0] = {-3, 5};
+    EXPECT_GT(check_curved(result.mesh, nodes).invalid, 0u);
+    nodes = result.curved;
+    nodes.quad_nodes.pop_back();
+    EXPECT_FALSE(check_curved(result.mesh, nodes).valid());
+    nodes = result.curved;
+    std::swap(nodes.triangle_nodes[0], nodes.triangle_nodes[1]);
+    EXPECT_FALSE(check_curved(result.mesh, nodes).valid());
+    nodes = result.curved;
+    std::swap(nodes.marker_nodes[0], nodes.marker_nodes[1]);
+    EXPECT_FALSE(check_curved(result.mesh, nodes).valid());
+}
+
+TEST(CurvedCells, AreRefusedInOneLine) {
+    const auto reason = [](const std::function<void()>& f) -> std::string {
+        try {
+            f();
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "";
+    };
+    const auto of_options = [&](const CaseOptions& options) {
+        return reason([&] { generate_mesh({"naca:0012"}, options); });
+    };
+    EXPECT_NE(of_options(curved_options(5)).find("from 1 to 4"), std::string::npos);
+    EXPECT_NE(of_options(curved_options(2, LayerTopology::delaunay)).find("quads or layered"), std::string::npos);
+    EXPECT_NE(reason([] { require_curved_format("mesh.su2"); }).find("msh41"), std::string::npos);
+    EXPECT_EQ(reason([] { require_curved_format("mesh.vtu"); }), "");
+    EXPECT_NE(reason([] { stream_mesh({"naca:0012"}, curved_options(2), {}); }).find("leave --stream out"),
+              std::string::npos);
+}
+
+}  // namespace
+}  // namespace lamina::test
