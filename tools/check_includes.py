@@ -38,7 +38,7 @@ PROGRAM_HEADERS = {"core/option_builders.hpp", "core/suggestion.hpp"}
 # The folder that owns each public header; a header that is not listed belongs to the folder of its name.
 OWNERS = {name: "core" for name in ("angle_bounds", "conditions", "error", "export", "files", "ids", "interruption",
                                     "length", "limits", "marker_names", "option", "point", "predicates", "ranks", "threads",
-                                    "version", "warning")}
+                                    "value_range", "version", "warning")}
 OWNERS["transformation"] = "geometry"
 OWNERS["compressible_flow"] = "flow"
 OWNERS["solution"] = "io"
@@ -53,6 +53,7 @@ for name in "delaunay_connectivity delaunay_input delaunay_queries dynamic_trian
 OWNERS["morph"] = "morphing"
 OWNERS["places"] = "mesh"
 OWNERS["former_options"] = "pipeline"
+OWNERS["plate"] = "pipeline"
 OWNERS["presets"] = "pipeline"
 OWNERS["mesh_sink"] = "mesh"
 OWNERS["curved_mesh"] = "mesh"

@@ -29,16 +29,17 @@ using OptionValue = std::variant<bool, std::int64_t, double, std::string, std::v
 
 /// The kinds of values that options take.
 enum class OptionKind {
-    number,         ///< one number
-    length,         ///< one length: a number of chords, or a word such as "0.003u" for units of the input
-    count,          ///< one whole number
-    count_or_auto,  ///< one whole number, or the word "auto"
-    flag,           ///< nothing on the command line; true or false in a case file
-    word,           ///< one word
-    words,          ///< several words, separated by commas on the command line
-    repeated,       ///< one word each time the option is given
-    path,           ///< one path
-    paths,          ///< several paths
+    number,           ///< one number
+    number_or_range,  ///< one number, or a range of numbers, as a word: "-4:18:1"
+    length,           ///< one length: a number of chords, or a word such as "0.003u" for units of the input
+    count,            ///< one whole number
+    count_or_auto,    ///< one whole number, or the word "auto"
+    flag,             ///< nothing on the command line; true or false in a case file
+    word,             ///< one word
+    words,            ///< several words, separated by commas on the command line
+    repeated,         ///< one word each time the option is given
+    path,             ///< one path
+    paths,            ///< several paths
 };
 
 /// Returns the name of a kind, as it is written above: "count_or_auto".

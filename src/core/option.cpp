@@ -20,6 +20,8 @@ const char* option_kind_name(OptionKind kind) {
     switch (kind) {
         case OptionKind::number:
             return "number";
+        case OptionKind::number_or_range:
+            return "number_or_range";
         case OptionKind::length:
             return "length";
         case OptionKind::count:
@@ -67,6 +69,16 @@ Length as_length(const OptionValue& value, const std::string& option) {
     if (!word) return as_number(value, option);
     try {
         return core::parse_length(*word);
+    } catch (const UsageError& error) {
+        throw OptionError(option, error.what());
+    }
+}
+
+ValueRange as_range(const OptionValue& value, const std::string& option) {
+    const auto* word = std::get_if<std::string>(&value);
+    if (!word || !is_range(*word)) throw OptionError(option, "must be a number, or a range A:B or A:B:STEP");
+    try {
+        return parse_range(*word);
     } catch (const UsageError& error) {
         throw OptionError(option, error.what());
     }

@@ -10,6 +10,7 @@
 
 #include <lamina/length.hpp>
 #include <lamina/option.hpp>
+#include <lamina/value_range.hpp>
 
 namespace lamina {
 
@@ -27,6 +28,8 @@ using Choices = std::vector<std::pair<std::string, Choice>>;
 LAMINA_EXPORT double as_number(const OptionValue& value, const std::string& option);
 /// Returns a length: a number counts chords, and a word is read by parse_length().
 LAMINA_EXPORT Length as_length(const OptionValue& value, const std::string& option);
+/// Returns a range of numbers, which a word is.
+LAMINA_EXPORT ValueRange as_range(const OptionValue& value, const std::string& option);
 /// Returns the value as a whole number. A real number without a fraction is one: 2e9.
 LAMINA_EXPORT std::int64_t as_count(const OptionValue& value, const std::string& option);
 /// Returns the value as true or false.
@@ -68,6 +71,33 @@ public:
         };
         const auto get = [=](const Options& o) { return value_of<double>(member(o)); };
         return add({name, OptionKind::number, std::move(metavar), std::move(help), range.text(), set, get});
+    }
+
+    /// Adds an option that takes a number, or a range of numbers whose middle one is the number then; member(options) is a
+    /// double, and range_member(options) an optional ValueRange.
+    template <class Member, class RangeMember>
+    Option<Options>& number_or_range(const std::string& name, std::string metavar, std::string help, OptionRange range,
+                                     Member member, RangeMember range_member) {
+        Option<Options>& option = number(name, std::move(metavar), std::move(help), range, member);
+        option.kind = OptionKind::number_or_range;
+        const auto set_number = option.set;
+        const auto get_number = option.get;
+        option.set = [=, key = option.key()](Options& o, const OptionValue& value) {
+            const auto* word = std::get_if<std::string>(&value);
+            if (!word) {
+                set_number(o, value);
+                range_member(o).reset();
+                return;
+            }
+            const std::vector<double> values = values_of(*(range_member(o) = as_range(value, key)));
+            for (const double number : values) require_in_range(range, number, key);
+            member(o) = values[values.size() / 2];
+        };
+        option.get = [=](const Options& o) -> std::optional<OptionValue> {
+            if (range_member(o)) return range_text(*range_member(o));
+            return get_number(o);
+        };
+        return option;
     }
 
     /// Adds an option that takes a length; member(options) is a Length or an optional of one.

@@ -27,7 +27,7 @@ export type Options = Record<string, OptionValue>;
 /** One option of mesh(). */
 export interface OptionRow {
   key: string;
-  kind: "number" | "length" | "count" | "count_or_auto" | "flag" | "word" | "words" | "repeated" | "path" | "paths";
+  kind: "number" | "number_or_range" | "length" | "count" | "count_or_auto" | "flag" | "word" | "words" | "repeated" | "path" | "paths";
   /** What stands for the value in help; the words of an option of kind "word", parted by bars. */
   metavar: string;
   help: string;
