@@ -92,6 +92,18 @@ struct FlowWalls {
 /// range.
 LAMINA_EXPORT Flow solve_flow(const Geometry& geometry, const FlowConditions& conditions = {},
                               const FlowWalls& walls = {});
+/// Forces of a flow, as coefficients based on Flow::chord.
+struct FlowForces {
+    double lift = 0;           ///< Flow::lift
+    double drag = 0;           ///< of the boundary layers, by Squire and Young; 0 without a Reynolds number
+    double friction_drag = 0;  ///< the part of it that skin friction makes
+    double moment = 0;         ///< of the pressures, nose up, about a quarter of the chord behind the foremost point
+};
+
+/// Returns the forces of a flow. The drag follows from the momentum thickness in the wake far behind, which that at the
+/// trailing edge becomes: 2 theta (u_e)^((H + 5) / 2) / chord for each side. It holds where the flow is attached up to the
+/// trailing edge. Source: H. B. Squire, A. D. Young, ARC R&M 1838 (1937).
+LAMINA_EXPORT FlowForces flow_forces(const Flow& flow);
 /// Returns the largest value along all walls, or along those of one element, of a number such as &FlowPoint::thickness.
 LAMINA_EXPORT double largest_on_walls(const Flow& flow, double FlowPoint::*number);
 LAMINA_EXPORT double largest_on_walls(const ElementFlow& element, double FlowPoint::*number);  ///< the same
