@@ -9,15 +9,20 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include <lamina/export.hpp>
 #include <lamina/point.hpp>
+#include <lamina/value_range.hpp>
 
 namespace lamina {
 
 /// The conditions as they are given.
 struct FlowConditions {
-    double alpha_deg = 0;               ///< angle of attack: the flow comes from the left and rises at this angle
+    double alpha_deg = 0;  ///< angle of attack: the flow comes from the left and rises at this angle
+    /// Angles of attack that one mesh is to serve, in degrees; alpha_deg is one of them, where a single one is needed. The
+    /// option `alpha` sets both. Empty: alpha_deg alone.
+    std::optional<ValueRange> alphas{};
     std::optional<double> reynolds{};   ///< Reynolds number of the free stream, based on the chord
     std::optional<double> mach{};       ///< Mach number of the free stream
     std::optional<double> chord{};      ///< reference chord in units of the input; empty: the extent in x
@@ -27,6 +32,9 @@ struct FlowConditions {
 
 /// Throws OptionError for an option out of range, and for velocity or viscosity alone or beside the Reynolds number.
 LAMINA_EXPORT void validate(const FlowConditions& conditions);
+
+/// Returns the conditions of each angle of attack, in ascending order; the given ones where there is one alone.
+LAMINA_EXPORT std::vector<FlowConditions> conditions_of_angles(const FlowConditions& conditions);
 
 /// The conditions that the stages use.
 struct ReferenceConditions {

@@ -63,6 +63,9 @@ struct CaseOptions {
     /// Divides the lengths that no option holds: spacings and wakes that the flow decides on, slowest growth along
     /// walls, numbers of layers up to least heights. One of what refined() changes.
     double fineness = 1;
+    /// How many vertices or cells the mesh is to have, within 3 %: with_scale() then divides the lengths of the options. At
+    /// most one of both is given.
+    std::optional<std::size_t> vertices{}, cells{};
     /// Whether the far field is two markers: `inlet`, where a uniform flow at the angle of attack enters, and `outlet`.
     bool inlet_outlet = false;
     std::vector<InternalLine> lines{};  ///< lines inside the domain
@@ -94,6 +97,11 @@ LAMINA_EXPORT FlowWalls flow_walls(const Geometry& geometry, const CaseOptions& 
 /// `conditions` are those of the geometry. Throws OptionError where points are to be kept, for growth `aflr`, whose
 /// ratios are fixed, where the ratio is not positive, and where the new options are out of range.
 LAMINA_EXPORT CaseOptions refined(const CaseOptions& options, double ratio, const ReferenceConditions& conditions = {});
+/// Returns the options of a mesh of the same first heights that is finer by `scale` elsewhere; below 1 it is coarser. All of
+/// refined() holds, but for layers: the growth r of those up to isotropy becomes r^(1/scale), and a given number stays as it
+/// is. CaseOptions::vertices and cells are left out. Throws OptionError where points are to be kept, and for a scale that is
+/// not positive.
+LAMINA_EXPORT CaseOptions with_scale(const CaseOptions& options, double scale);
 /// Returns the bodies with the walls that generate_mesh() begins with: prepare_surfaces() with spacings for the layer.
 LAMINA_EXPORT Geometry prepare_geometry(Geometry geometry, const CaseOptions& options);
 
@@ -151,6 +159,16 @@ struct FlowShock {
     double height = 0;       ///< how far the shock reaches away from there, in units of the input
 };
 
+/// What the flow at one of several angles of attack would ask for alone. Lengths are in units of the input.
+struct AngleDecisions {
+    double alpha_deg = 0;         ///< the angle
+    double lift = 0;              ///< lift coefficient of the flow
+    double first_height = 0;      ///< smallest of the first heights for the y+; 0: a height was given
+    double least_thickness = 0;   ///< FlowDecisions::least_thickness
+    double smallest_spacing = 0;  ///< smallest spacing of walls; 0: none
+    bool separated = false;       ///< whether the flow is stalled or bluff: WarningCode::flow_separates
+};
+
 /// The decisions that the flow before the mesh made, beside first heights.
 struct FlowDecisions {
     double least_thickness = 0;   ///< largest of the heights that layers reach at least, in units of the input; 0: none
@@ -161,6 +179,7 @@ struct FlowDecisions {
     /// Per element the largest skin friction times the wall's density, both by the free stream, where compressible flow with
     /// boundary layers was found: first heights for a y+ follow from these. Else empty.
     std::vector<double> frictions{};
+    std::vector<AngleDecisions> angles{};  ///< of FlowConditions::alphas; empty: the mesh is for one angle
 };
 
 /// The layers on a wall of the domain.
@@ -203,6 +222,7 @@ struct MeshResult {
     std::size_t thinned_rays = 0;                 ///< rays shortened so that angles beyond and within keep bounds
     Point thinned_at{};                           ///< origin of the one that lost the largest share of its height
     RefineStats refinement;                       ///< summed over the subdomains
+    double scale = 1;                             ///< that with_scale() had for CaseOptions::vertices or cells
     double mean_edge_over_size = 0;               ///< mean isotropic edge over h at its middle, of a sample; 0: no edge
     RunEstimate estimate;                         ///< made before the work
     std::vector<Warning> warnings;                ///< what the user should know about the mesh; empty: nothing
@@ -222,6 +242,18 @@ LAMINA_EXPORT MeshResult generate_mesh(const Geometry& geometry, const CaseOptio
 /// Reads the inputs and runs all stages on them.
 LAMINA_EXPORT MeshResult generate_mesh(const std::vector<std::string>& inputs, const CaseOptions& options = {},
                                        const Progress& progress = {});
+
+/// A mesh, and the scale that it was made with.
+struct ScaledMesh {
+    double scale = 1;   ///< as make() got it
+    MeshResult result;  ///< as make() returned it
+    double count = 0;   ///< as count() returned it
+};
+
+/// Makes meshes of different scales until one has so many vertices, or whatever `count` counts, within 3 %; eight at most.
+/// Returns the nearest. Precondition: counts grow with the scale.
+LAMINA_EXPORT ScaledMesh mesh_of_count(double wanted, const std::function<MeshResult(double scale)>& make,
+                                       const std::function<double(const MeshResult&)>& count);
 
 /// Returns whether the flow round these bodies is expected to be faster than sound at the Mach number of the
 /// conditions: from Mach 1 on, and where the incompressible `flow` is, with_compressed_pressures(), along more than

@@ -72,9 +72,9 @@ class MeshOptions(TypedDict, total=False):
     # reference chord, in units of the input: what lengths in chords count; else the extent in x of the
     # configuration before --transform turns it; > 0
     chord: float | None
-    # angle of attack, in degrees: the flow comes from the left and rises at this angle; nothing is turned; >=
-    # -90 and <= 90 [0]
-    alpha: float | None
+    # angle of attack, in degrees: the flow comes from the left and rises at this angle; nothing is turned; a
+    # range: the mesh serves all angles from A to B, by the flow at each step (1); >= -90 and <= 90 [0]
+    alpha: float | str | None
     # Reynolds number of the free stream, based on the chord; > 0
     reynolds: float | None
     # velocity of the free stream, in units of the input per second; with the viscosity it gives the Reynolds
@@ -171,6 +171,12 @@ class MeshOptions(TypedDict, total=False):
     # edges between cells, or, two-sided, a wall without thickness; H is the edge length along it; units of the
     # input; may be given several times
     line: str | float | Sequence[str | float] | None
+    # number of vertices, within 3 %, on a mesh of the same first heights: with a scale s that is found by
+    # trial, all other lengths, angles between rays and gradations are divided by s, and the growth r of layers
+    # up to isotropy becomes r^(1/s); >= 100 and <= 4e+09
+    vertices: int | None
+    # number of cells, likewise; >= 100 and <= 4e+09
+    cells: int | None
     # the base of a blunt trailing edge is a marker of its own, NAME_base
     base_marker: bool | None
     # the far field is two markers: inlet, where a uniform flow at the angle of attack enters, and outlet

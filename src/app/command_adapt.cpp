@@ -79,6 +79,11 @@ void adapt(const AdaptArguments& arguments) {
     if (is_given(mesh_case, "gradation")) settings.sizes.gradation = mesh_case.options.sizing.gradation;
     settings.identity = fmt::format("\n{}\n{}\n{}", arguments.solver, arguments.turbulence, arguments.goal);
     MeshCase without_outputs = mesh_case;
+    // Case files may have them; a loop of meshes has numbers of its own.
+    if (settings.vertices.empty() && mesh_case.options.vertices)
+        settings.vertices = {static_cast<double>(*mesh_case.options.vertices)};
+    without_outputs.options.vertices.reset();
+    without_outputs.options.cells.reset();
     without_outputs.outputs.clear();
     for (const auto& [file, option] : files_beside_mesh) (without_outputs.*file).clear();
     const std::unique_ptr<AdaptSolver> solver = adapt_solver(arguments.solver, options);
@@ -170,9 +175,9 @@ void add_adapt_command(CLI::App& app) {
     add_solver_and_folder(*command, *arguments);
     add_round_options(*command, *arguments);
     add_goal_options(*command, *arguments);
-    arguments->mesh =
-        add_mesh_options(*command, {"output", "format", "order", "parts", "span", "span-cells", "span-ends",
-                                    "wall-distance", "background", "stream", "wall-data", "report", "html"});
+    arguments->mesh = add_mesh_options(
+        *command, {"output", "format", "order", "parts", "span", "span-cells", "span-ends", "wall-distance",
+                   "background", "stream", "wall-data", "report", "html", "vertices", "cells"});
     command->callback([arguments] { adapt(*arguments); });
 }
 

@@ -49,6 +49,8 @@ WallFlowOptions wall_flow_of(const std::string& velocity, const MeshCase& mesh_c
 /// Returns the function that makes the next mesh by a case file, and counts its vertices.
 VertexCount count_by_case(const MeshCase& mesh_case) {
     CaseOptions options = options_with_files(mesh_case);
+    options.vertices.reset();  // the sizes decide
+    options.cells.reset();
     auto geometry = std::make_shared<const Geometry>(read_geometry(mesh_case.inputs, options.geometry));
     return [options, geometry](const SizedMesh& sizes) {
         CaseOptions next = options;

@@ -170,6 +170,20 @@ std::string shocks_summary(const MeshResult& result) {
     return text;
 }
 
+/// Returns a table of what the flow at each angle of a range would have asked for alone.
+std::string angles_summary(const MeshResult& result) {
+    if (result.decisions.angles.empty()) return "";
+    const double chord = result.conditions.chord;
+    std::string text = "one mesh for all angles of attack; alone, in chords, each would have asked for\n";
+    text += fmt::format("  {:>8} {:>8} {:>13} {:>13} {:>13}\n", "alpha", "lift", "first height", "layer up to",
+                        "wall spacing");
+    for (const AngleDecisions& at : result.decisions.angles)
+        text += fmt::format("  {:>8g} {:>8.4f} {:>13.4g} {:>13.4g} {:>13.4g}{}\n", at.alpha_deg, at.lift,
+                            at.first_height / chord, at.least_thickness / chord, at.smallest_spacing / chord,
+                            at.separated ? "  separated" : "");
+    return text;
+}
+
 Json both_units(double length, double chord) { return {{"chords", length / chord}, {"units", length}}; }
 
 }  // namespace
@@ -187,7 +201,7 @@ std::string conditions_summary(const MeshCase& mesh_case, const MeshResult& resu
                                                  in_chords(fact.length, chord), in_units(fact.length, chord),
                                                  fact.element.empty() ? "" : " on " + fact.element, fact.source));
     return "conditions: " + flow + "\n" + lengths + wakes_summary(result) + spacings_summary(result) +
-           shocks_summary(result);
+           shocks_summary(result) + angles_summary(result);
 }
 
 Json conditions_report(const MeshCase& mesh_case, const MeshResult& result) {
@@ -224,6 +238,13 @@ Json conditions_report(const MeshCase& mesh_case, const MeshResult& result) {
                                     {"mach_ahead", shock.mach_ahead},
                                     {"height", both_units(shock.height, chord)},
                                     {"source", shock_source(shock)}});
+    for (const AngleDecisions& at : result.decisions.angles)
+        report["angles"].push_back({{"alpha_deg", at.alpha_deg},
+                                    {"CL", at.lift},
+                                    {"first_height", both_units(at.first_height, chord)},
+                                    {"least_thickness", both_units(at.least_thickness, chord)},
+                                    {"smallest_spacing", both_units(at.smallest_spacing, chord)},
+                                    {"separated", at.separated}});
     return report;
 }
 

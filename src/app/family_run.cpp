@@ -144,7 +144,9 @@ double whole_power(double ratio, int power) {
 std::vector<Member> plan_members(const FamilyArguments& arguments, const MeshCase& mesh_case,
                                  const Geometry& geometry) {
     const int base = arguments.base_level.value_or(arguments.levels / 2);
-    const CaseOptions options = options_with_files(mesh_case);
+    CaseOptions options = options_with_files(mesh_case);
+    // A number of vertices or cells is that of the base level.
+    if (options.vertices || options.cells) options = with_scale(options, generate_mesh(geometry, options).scale);
     const ReferenceConditions conditions = reference_conditions(options.conditions, reference_box(geometry));
     std::vector<Member> members;
     for (int level = 0; level < arguments.levels; ++level) {

@@ -185,7 +185,8 @@ std::string help_text(const Option<MeshCase>& option) {
 OptionValue value_of_text(OptionKind kind, const std::vector<std::string>& texts, const std::string& origin) {
     if (kind == OptionKind::words || kind == OptionKind::repeated || kind == OptionKind::paths) return texts;
     const std::string& text = texts.back();
-    if (kind == OptionKind::number) return parse_real(text, origin);
+    if (kind == OptionKind::number || (kind == OptionKind::number_or_range && !is_range(text)))
+        return parse_real(text, origin);
     if (kind == OptionKind::flag) return text == "true";
     if (kind == OptionKind::count || (kind == OptionKind::count_or_auto && text != auto_word))
         return parse_count(text, origin);

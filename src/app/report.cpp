@@ -218,6 +218,7 @@ Json mesh_report(const MeshCase& mesh_case, const MeshResult& result, const Mesh
                    {"layer_triangles", facts.counts.layer_triangles},
                    {"isotropic_triangles", facts.counts.triangles - facts.counts.layer_triangles},
                    {"surface_vertices", result.surface_vertices},
+                   {"scale", result.scale},
                    {"decomposition", decomposition_report(result.decomposition)},
                    {"pieces",
                     {{"layer", result.layer_pieces},

@@ -83,6 +83,8 @@ MeshDestination destination_of_case(FlowSolver solver, const MeshCase& mesh_case
 }
 
 void prepare_case(FlowSolver solver, SolverCaseOptions& options, MeshCase& mesh_case) {
+    if (mesh_case.options.conditions.alphas)
+        throw OptionError("alpha", "a case is for one angle of attack; lamina polar runs a range of them");
     options.compressible = mesh_case.options.conditions.mach.has_value();
     validate(solver, options, mesh_case.options.conditions.mach);
     apply_preferences(solver, mesh_case);

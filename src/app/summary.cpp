@@ -165,6 +165,9 @@ std::string mesh_summary(const MeshCase& mesh_case, const MeshResult& result, co
     text += fmt::format("mesh: {} vertices, {} triangles, {}made in {} pieces\n", counts.vertices, counts.triangles,
                         counts.quads > 0 ? fmt::format("{} quads, ", counts.quads) : "",
                         result.layer_pieces + result.inviscid_pieces);
+    if (mesh_case.options.vertices || mesh_case.options.cells)
+        text += summary_line("scale", fmt::format("{:.4g}, found for the number of {}", result.scale,
+                                                  mesh_case.options.vertices ? "vertices" : "cells"));
     text += quality_summary(result.check);
     if (result.curved.order > 1)
         text +=

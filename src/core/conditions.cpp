@@ -14,9 +14,12 @@ OptionTable<FlowConditions> option_rows() {
                  "reference chord, in units of the input: what lengths in chords count; else the extent in x of the "
                  "configuration before --transform turns it",
                  positive_numbers, member_at(&FlowConditions::chord));
-    table.number("alpha", "DEG",
-                 "angle of attack, in degrees: the flow comes from the left and rises at this angle; nothing is turned",
-                 numbers_from_to(-90, 90), member_at(&FlowConditions::alpha_deg));
+    table.number_or_range("alpha", "DEG|A:B[:STEP]",
+                          "angle of attack, in degrees: the flow comes from the left and rises at this angle; nothing "
+                          "is turned; a range: "
+                          "the mesh serves all angles from A to B, by the flow at each step (1)",
+                          numbers_from_to(-90, 90), member_at(&FlowConditions::alpha_deg),
+                          member_at(&FlowConditions::alphas));
     table
         .number("reynolds", "RE", "Reynolds number of the free stream, based on the chord", positive_numbers,
                 member_at(&FlowConditions::reynolds))
@@ -42,10 +45,21 @@ template LAMINA_EXPORT const OptionTable<FlowConditions>& option_table();
 
 void validate(const FlowConditions& conditions) {
     require_in_range(option_table<FlowConditions>(), conditions);
-    const auto& [alpha_deg, reynolds, mach, chord, velocity, viscosity] = conditions;
+    const auto& [alpha_deg, alphas, reynolds, mach, chord, velocity, viscosity] = conditions;
     if (velocity && !viscosity) throw OptionError("velocity", "needs viscosity, which is not given");
     if (viscosity && !velocity) throw OptionError("viscosity", "needs velocity, which is not given");
     if (velocity && reynolds) throw OptionError("reynolds", "follows from velocity and viscosity, which are given");
+}
+
+std::vector<FlowConditions> conditions_of_angles(const FlowConditions& conditions) {
+    if (!conditions.alphas) return {conditions};
+    std::vector<FlowConditions> all;
+    for (const double alpha : values_of(*conditions.alphas)) {
+        all.push_back(conditions);
+        all.back().alpha_deg = alpha;
+        all.back().alphas.reset();
+    }
+    return all;
 }
 
 ReferenceConditions reference_conditions(const FlowConditions& conditions, const Box& bodies) {

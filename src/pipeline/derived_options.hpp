@@ -35,6 +35,9 @@ layers::BorderOptions border_with_sources(layers::BorderOptions border, std::spa
 /// Returns the bodies as they are in the domain: cut at a line of symmetry, or turned to a blade of a row.
 Geometry part_in_domain(Geometry geometry, const CaseOptions& options);
 
+/// Returns the sizes with the wakes that follow the angle of attack at each angle of a range (FlowConditions::alphas).
+SizingOptions wakes_at_angles(SizingOptions sizing, const FlowConditions& conditions);
+
 /// Returns the sizes with edges short enough for a tunnel or a row of blades, where they do not say how long edges may be.
 SizingOptions sizes_between_borders(SizingOptions sizing, const FarFieldOptions& far_field, double chord,
                                     double fineness);

@@ -8,6 +8,8 @@
 #include <utility>
 #include <variant>
 
+#include <fmt/format.h>
+
 #include <lamina/error.hpp>
 
 #include "flow/corner_peaks.hpp"
@@ -17,6 +19,7 @@
 #include "flow/separation.hpp"
 #include "geometry/sheets.hpp"
 #include "geometry/symmetry.hpp"
+#include "layers/heights/heights.hpp"
 #include "pipeline/shock_sizes.hpp"
 
 namespace lamina::pipeline {
@@ -94,8 +97,8 @@ std::optional<CompressibleFlow> flow_beyond_critical(const Geometry& geometry, c
 void add_shocks(const CompressibleFlow& flow, double fineness, FlowGuidance& guidance) {
     ShockSizes sizes = sizes_at_shocks(flow, fineness);
     guidance.spacings.insert(guidance.spacings.end(), sizes.spacings.begin(), sizes.spacings.end());
-    guidance.sources = std::move(sizes.sources);
-    guidance.shocks = std::move(sizes.shocks);
+    guidance.sources.insert(guidance.sources.end(), sizes.sources.begin(), sizes.sources.end());
+    guidance.shocks.insert(guidance.shocks.end(), sizes.shocks.begin(), sizes.shocks.end());
     guidance.knows_shocks = sizes.knows_shocks;
 }
 
@@ -246,32 +249,146 @@ void leave_out_images(const Geometry& geometry, FlowGuidance& guidance, layers::
 
 }  // namespace
 
+namespace {
+
+/// The flow at one angle of attack, and what it asks for.
+struct AngleFlow {
+    Flow flow;
+    std::optional<CompressibleFlow> compressible{};
+    std::vector<ElementWake> wakes{};
+    std::vector<double> frictions{};
+    std::vector<double> first_heights{};
+    std::vector<layers::WallHeight> least_heights{};
+};
+
+AngleFlow flow_at_angle(const Geometry& geometry, const FlowWalls& walls, const FlowConditions& flow_conditions,
+                        const LayerOptions& options, const ReferenceConditions& conditions, double fineness) {
+    AngleFlow result{.flow = solve_flow(geometry, flow_conditions, walls)};
+    const Flow& flow = result.flow;
+    // Shocks are found round the bodies alone.
+    if (!walls.pitch) result.compressible = flow_beyond_critical(geometry, flow_conditions, flow);
+    if (result.compressible) result.frictions = wall_frictions(*result.compressible);
+    if (!flow.estimated) result.wakes = wakes_of_flow(flow, fineness);
+    if (!options.enabled) return result;
+    if (const auto* y_plus = std::get_if<YPlus>(&options.first_height); y_plus && !flow.estimated)
+        result.first_heights =
+            layers::layer_growth(
+                options, conditions,
+                result.frictions.empty()
+                    ? first_heights_of_flow(flow, y_plus->y_plus, *conditions.reynolds)
+                    : first_heights_for(result.frictions, y_plus->y_plus, *conditions.reynolds, flow.chord))
+                .first_heights;
+    result.least_heights = heights_with_sheets(flow, geometry);
+    return result;
+}
+
+/// Returns the smaller or larger of both numbers of each element; those of one side where the other has none.
+template <class Choose>
+std::vector<double> elementwise(std::vector<double> a, const std::vector<double>& b, Choose choose) {
+    if (b.empty()) return a;
+    if (a.empty()) return b;
+    for (std::size_t e = 0; e < a.size(); ++e) a[e] = choose(a[e], b[e]);
+    return a;
+}
+
+/// Raises heights to those that the flow at another angle asks for at the same points.
+void raise_to(const std::vector<layers::WallHeight>& others, std::vector<layers::WallHeight>& heights) {
+    for (auto first = heights.begin(); first != heights.end();) {
+        const std::size_t e = first->element;
+        const auto is_other = [&](const layers::WallHeight& height) { return height.element != e; };
+        const auto end = std::find_if(first, heights.end(), is_other);
+        std::vector<layers::WallHeight> chain;
+        std::remove_copy_if(others.begin(), others.end(), std::back_inserter(chain), is_other);
+        for (; first != end; ++first) first->height = std::max(first->height, layers::height_at(first->at, chain));
+    }
+}
+
+/// Returns the wakes of all angles as one for each element: a fan without gaps.
+std::vector<ElementWake> fan_of_wakes(const std::vector<AngleFlow>& flows, std::size_t middle) {
+    std::vector<ElementWake> fan = flows[middle].wakes;
+    for (std::size_t k = 0; k < flows.size(); ++k) {
+        if (k == middle || flows[k].wakes.empty()) continue;
+        if (fan.empty()) fan.resize(flows[k].wakes.size());
+        for (std::size_t e = 0; e < fan.size(); ++e) add_to_fan(flows[k].wakes[e], fan[e]);
+    }
+    for (std::size_t k = 0; k + 1 < flows.size(); ++k)
+        for (std::size_t e = 0; e < fan.size() && !flows[k].wakes.empty() && !flows[k + 1].wakes.empty(); ++e)
+            close_gap(flows[k].wakes[e], flows[k + 1].wakes[e], fan[e]);
+    return fan;
+}
+
+bool is_separated(const Flow& flow) {
+    return std::any_of(flow.warnings.begin(), flow.warnings.end(),
+                       [](const Warning& warning) { return warning.code == WarningCode::flow_separates; });
+}
+
+/// Returns what the flow at one angle would ask for alone.
+AngleDecisions decisions_at_angle(const AngleFlow& at, std::span<const geometry::WallSpacing> spacings) {
+    AngleDecisions decisions{.alpha_deg = at.flow.alpha_deg, .lift = at.flow.lift};
+    if (!at.first_heights.empty())
+        decisions.first_height = *std::min_element(at.first_heights.begin(), at.first_heights.end());
+    for (const layers::WallHeight& least : at.least_heights)
+        decisions.least_thickness = std::max(decisions.least_thickness, least.height);
+    for (const geometry::WallSpacing& wall : spacings)
+        if (decisions.smallest_spacing == 0 || wall.spacing < decisions.smallest_spacing)
+            decisions.smallest_spacing = wall.spacing;
+    decisions.separated = is_separated(at.flow);
+    return decisions;
+}
+
+/// Adds the warnings of the flow at another angle, which say at which.
+void add_warnings_at_angle(const Flow& at, Flow& flow) {
+    for (Warning warning : at.warnings) {
+        warning.message = fmt::format("at {} degrees: {}", at.alpha_deg, warning.message);
+        flow.warnings.push_back(std::move(warning));
+    }
+}
+
+}  // namespace
+
 FlowGuidance guide_by_flow(const Geometry& given, const FlowWalls& walls, const FlowConditions& flow_conditions,
                            const LayerOptions& options, const ReferenceConditions& conditions,
                            layers::LayerGrowth& growth) {
     const Geometry geometry = geometry::with_images(given);
+    const std::vector<FlowConditions> angles = conditions_of_angles(flow_conditions);
+    std::vector<AngleFlow> flows;
+    for (const FlowConditions& angle : angles)
+        flows.push_back(flow_at_angle(geometry, walls, angle, options, conditions, growth.fineness));
+    const auto nearest =
+        std::min_element(angles.begin(), angles.end(), [&](const FlowConditions& a, const FlowConditions& b) {
+            return std::abs(a.alpha_deg - flow_conditions.alpha_deg) <
+                   std::abs(b.alpha_deg - flow_conditions.alpha_deg);
+        });
+    const auto middle = static_cast<std::size_t>(nearest - angles.begin());
+
     FlowGuidance guidance;
-    guidance.flow = solve_flow(geometry, flow_conditions, walls);
-    const Flow& flow = *guidance.flow;
-    // Shocks are found round the bodies alone.
-    std::optional<CompressibleFlow> compressible;
-    if (!walls.pitch) compressible = flow_beyond_critical(geometry, flow_conditions, flow);
-    if (compressible) guidance.frictions = wall_frictions(*compressible);
-    if (!flow.estimated) guidance.wakes = wakes_of_flow(flow, growth.fineness);
-    if (options.enabled) {
-        if (const auto* y_plus = std::get_if<YPlus>(&options.first_height); y_plus && !flow.estimated)
-            growth.first_heights =
-                layers::layer_growth(
-                    options, conditions,
-                    guidance.frictions.empty()
-                        ? first_heights_of_flow(flow, y_plus->y_plus, *conditions.reynolds)
-                        : first_heights_for(guidance.frictions, y_plus->y_plus, *conditions.reynolds, flow.chord))
-                    .first_heights;
-        growth.least_heights = heights_with_sheets(flow, geometry);
-        if (options.wake_layers) growth.wakes = wake_lines(flow, guidance.wakes, growth.least_heights);
+    guidance.flow = flows[middle].flow;
+    guidance.frictions = flows[middle].frictions;
+    guidance.wakes = fan_of_wakes(flows, middle);
+    growth.first_heights = flows[middle].first_heights;
+    growth.least_heights = flows[middle].least_heights;
+    for (std::size_t k = 0; k < flows.size(); ++k) {
+        if (k == middle) continue;
+        const auto smaller = [](double a, double b) { return std::min(a, b); };
+        const auto larger = [](double a, double b) { return std::max(a, b); };
+        growth.first_heights = elementwise(std::move(growth.first_heights), flows[k].first_heights, smaller);
+        guidance.frictions = elementwise(std::move(guidance.frictions), flows[k].frictions, larger);
+        raise_to(flows[k].least_heights, growth.least_heights);
+        add_warnings_at_angle(flows[k].flow, *guidance.flow);
     }
-    if (!flow.estimated) guidance.spacings = spacings_of_flow(flow, growth);
-    if (compressible) add_shocks(*compressible, growth.fineness, guidance);
+    if (options.enabled && options.wake_layers)
+        growth.wakes = wake_lines(*guidance.flow, guidance.wakes, growth.least_heights);
+    for (const AngleFlow& at : flows) {
+        const auto own = static_cast<std::ptrdiff_t>(guidance.spacings.size());
+        if (!at.flow.estimated) {
+            const std::vector<geometry::WallSpacing> spacings = spacings_of_flow(at.flow, growth);
+            guidance.spacings.insert(guidance.spacings.end(), spacings.begin(), spacings.end());
+        }
+        if (at.compressible) add_shocks(*at.compressible, growth.fineness, guidance);
+        if (flows.size() > 1)
+            guidance.angles.push_back(
+                decisions_at_angle(at, {guidance.spacings.begin() + own, guidance.spacings.end()}));
+    }
     leave_out_images(given, guidance, growth);
     return guidance;
 }

@@ -60,20 +60,28 @@ struct ElementWake {
 /// ends where it would enter another body. Sizes are divided by CaseOptions::fineness.
 std::vector<ElementWake> wakes_of_flow(const Flow& flow, double fineness = 1);
 
+/// Adds the sources of a wake at another angle of attack to those of an element.
+void add_to_fan(const ElementWake& wake, ElementWake& fan);
+
+/// Adds sources between the wakes of an element at neighbouring angles of attack to its fan, where there is a gap.
+void close_gap(const ElementWake& wake, const ElementWake& next, ElementWake& fan);
+
 /// The flow before the mesh, and what follows from it beside the growth of the layer.
 struct FlowGuidance {
     std::optional<Flow> flow;        ///< none: nobody asked for it
     std::vector<ElementWake> wakes;  ///< one per element or none
     std::vector<geometry::WallSpacing> spacings;
-    std::vector<SizeSource> sources;  ///< along shocks
-    std::vector<FlowShock> shocks;    ///< beyond the critical Mach number
-    bool knows_shocks = false;        ///< FlowDecisions::knows_shocks
-    std::vector<double> frictions;    ///< FlowDecisions::frictions
+    std::vector<SizeSource> sources;     ///< along shocks
+    std::vector<FlowShock> shocks;       ///< beyond the critical Mach number
+    bool knows_shocks = false;           ///< FlowDecisions::knows_shocks
+    std::vector<double> frictions;       ///< FlowDecisions::frictions
+    std::vector<AngleDecisions> angles;  ///< FlowDecisions::angles
 };
 
 /// Solves the flow round these bodies between the walls of the domain. Its first heights for the y+ of the options, its least heights and wakes go to `growth`.
 /// Beyond the critical Mach number it solves the compressible flow, too, takes first heights from its layers if it has any,
-/// and makes walls and sizes fine at shocks.
+/// and makes walls and sizes fine at shocks. For several angles of attack the mesh gets the smallest of their first heights
+/// and spacings, the largest of their least heights, and the fan of their wakes.
 FlowGuidance guide_by_flow(const Geometry& geometry, const FlowWalls& walls, const FlowConditions& flow_conditions,
                            const LayerOptions& options, const ReferenceConditions& conditions,
                            layers::LayerGrowth& growth);

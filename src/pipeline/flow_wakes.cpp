@@ -276,6 +276,38 @@ std::vector<ElementWake> wakes_of_flow(const Flow& flow, double fineness) {
     return wakes;
 }
 
+void add_to_fan(const ElementWake& wake, ElementWake& fan) {
+    const auto append = [](const std::vector<WakeSource>& more, std::vector<WakeSource>& sources) {
+        sources.insert(sources.end(), more.begin(), more.end());
+    };
+    append(wake.outer, fan.outer);
+    append(wake.inner, fan.inner);
+    append(wake.mixing, fan.mixing);
+    if (fan.wake.element.empty()) fan.wake = wake.wake;
+}
+
+void close_gap(const ElementWake& wake, const ElementWake& next, ElementWake& fan) {
+    // Capsules on the line in the middle fill what those of both wakes leave between them:
+    //
+    //      wake  (=======)        next to the trailing edge both overlap,
+    //       gap  (       )        so that there is nothing to fill
+    //      next  (=======)
+    for (const WakeSource& part : wake.outer) {
+        const auto beside = std::find_if(next.outer.begin(), next.outer.end(), [&](const WakeSource& other) {
+            return other.begins + distance(other.source.a, other.source.b) > part.begins;
+        });
+        if (beside == next.outer.end()) return;
+        const SizeSource &a = part.source, &b = beside->source;
+        const double gap = std::max(distance(a.a, b.a), distance(a.b, b.b)) - a.radius - b.radius;
+        if (!(gap > 0)) continue;
+        fan.outer.push_back({part.begins,
+                             {.a = midpoint(a.a, b.a),
+                              .b = midpoint(a.b, b.b),
+                              .size = std::min(a.size, b.size),
+                              .radius = 0.5 * gap}});
+    }
+}
+
 std::vector<layers::WakeLine> wake_lines(const Flow& flow, std::span<const ElementWake> wakes,
                                          std::span<const layers::WallHeight> heights) {
     std::vector<layers::WakeLine> lines;

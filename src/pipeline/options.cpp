@@ -48,6 +48,17 @@ OptionTable<CaseOptions> make_pipeline_rows() {
                true, member_at(&CaseOptions::inlet_outlet));
     run.count("threads", "N", "number of threads; 0: one per core; never changes the mesh", numbers_from_to(0, 1024),
               member_at(&CaseOptions::threads));
+    constexpr double least_count = 100, most_count = 4e9;
+    const char* const rule =
+        ", within 3 %, on a mesh of the same first heights: with a scale s that is found by trial, all other lengths, "
+        "angles "
+        "between rays and gradations are divided by s, and the growth r of layers up to isotropy becomes r^(1/s)";
+    outer
+        .count("vertices", "N", std::string("number of vertices") + rule, numbers_from_to(least_count, most_count),
+               member_at(&CaseOptions::vertices))
+        .excludes = {"cells"};
+    outer.count("cells", "N", "number of cells, likewise", numbers_from_to(least_count, most_count),
+                member_at(&CaseOptions::cells));
     run.count("max-triangles", "N",
               "largest number of triangles; a run that needs more, by estimate, is refused before the work",
               numbers_from_to(1, 1e15), member_at(&CaseOptions::limits, &WorkLimits::max_triangles));
@@ -117,11 +128,12 @@ template LAMINA_EXPORT const OptionTable<CaseOptions>& option_table();
 namespace {
 
 void require_stream_along_walls(const CaseOptions& options) {
-    if (options.conditions.alpha_deg != 0 && (options.far_field.tunnel || options.far_field.ground))
+    const bool is_level = options.conditions.alpha_deg == 0 && !options.conditions.alphas;
+    if (!is_level && (options.far_field.tunnel || options.far_field.ground))
         throw OptionError("alpha",
                           "the flow runs along ground and tunnel walls: turn the configuration, as with --transform "
                           "all:rotate:-10");
-    if (options.conditions.alpha_deg != 0 && options.far_field.symmetry)
+    if (!is_level && options.far_field.symmetry)
         throw OptionError("alpha", "the flow runs along the line of symmetry: alpha is 0 there");
 }
 
@@ -158,12 +170,15 @@ void validate(const CaseOptions& options) {
     validate_lines(options);
     validate_order(options);
     const bool by_y_plus = options.layer.enabled && std::holds_alternative<YPlus>(options.layer.first_height);
+    if (options.vertices && options.cells) throw OptionError("cells", "follow from vertices, which are given");
     if (by_y_plus && !options.conditions.reynolds && !options.conditions.velocity)
         throw OptionError("y_plus", "needs reynolds, or velocity and viscosity");
     if (options.use_flow && !options.conditions.reynolds && !options.conditions.velocity)
         throw OptionError("use_flow", "needs reynolds, or velocity and viscosity");
     require_stream_along_walls(options);
     if (options.layer.enabled && options.layer.wake_layers) {
+        if (options.conditions.alphas)
+            throw OptionError("wake_layers", "layers go on along the wake of one angle of attack: give one alpha");
         if (!options.use_flow) throw OptionError("wake_layers", "needs use_flow, which finds the wakes");
         if (options.far_field.symmetry)
             throw OptionError("wake_layers", "layers do not go on along wakes beside a line of symmetry");
@@ -240,6 +255,23 @@ Geometry part_in_domain(Geometry geometry, const CaseOptions& options) {
     if (!domain.pitch) return geometry;
     const double chord = reference_conditions(options.conditions, reference_box(geometry)).chord;
     return blade_row(std::move(geometry), in_units(*domain.pitch, chord), domain.stagger_deg);
+}
+
+SizingOptions wakes_at_angles(SizingOptions sizing, const FlowConditions& conditions) {
+    if (!conditions.alphas) return sizing;
+    std::vector<WakeOptions> wakes;
+    for (const WakeOptions& wake : sizing.wakes) {
+        if (wake.angle_deg) {
+            wakes.push_back(wake);
+            continue;
+        }
+        for (const double alpha : values_of(*conditions.alphas)) {
+            wakes.push_back(wake);
+            wakes.back().angle_deg = alpha;
+        }
+    }
+    sizing.wakes = std::move(wakes);
+    return sizing;
 }
 
 SizingOptions sizes_between_borders(SizingOptions sizing, const FarFieldOptions& far_field, double chord,

@@ -10,6 +10,7 @@
 #include <lamina/threads.hpp>
 
 #include "decoupling/far_field.hpp"
+#include "pipeline/budget.hpp"
 #include "pipeline/curve_mesh.hpp"
 #include "pipeline/derived_options.hpp"
 #include "pipeline/fit_layer.hpp"
@@ -96,8 +97,8 @@ PreparedWalls prepare_walls(const Geometry& given, const CaseOptions& options, c
 MadeMesh run(const Geometry& whole, CaseOptions options, MeshDriver& driver, StageClock& clock) {
     const Geometry given = part_in_domain(whole, options);
     const ReferenceConditions conditions = reference_conditions(options.conditions, reference_box(given));
-    options.sizing =
-        sizes_between_borders(std::move(options.sizing), options.far_field, conditions.chord, options.fineness);
+    options.sizing = sizes_between_borders(wakes_at_angles(std::move(options.sizing), options.conditions),
+                                           options.far_field, conditions.chord, options.fineness);
     const std::vector<SizeSource> along_lines = sizes_along(options.lines);
     options.sizing.sources.insert(options.sizing.sources.end(), along_lines.begin(), along_lines.end());
     const WorkBudget budget{options.limits, driver.cost()};
@@ -143,6 +144,7 @@ MadeMesh run(const Geometry& whole, CaseOptions options, MeshDriver& driver, Sta
     result.decisions.shocks = std::move(guidance.shocks);
     result.decisions.knows_shocks = guidance.knows_shocks;
     result.decisions.frictions = std::move(guidance.frictions);
+    result.decisions.angles = std::move(guidance.angles);
     result.seconds = clock.seconds();
     return made;
 }
@@ -198,18 +200,25 @@ Geometry prepare_geometry(Geometry geometry, const CaseOptions& options) {
 }
 
 MeshResult generate_mesh(const Geometry& geometry, const CaseOptions& options, const Progress& progress) {
-    KeepingDriver driver;
-    const auto given = [&](StageClock&) -> const Geometry& { return geometry; };
-    return whole(read_and_run(given, options, driver, progress));
+    const auto make = [&](const CaseOptions& of_mesh) {
+        KeepingDriver driver;
+        const auto given = [&](StageClock&) -> const Geometry& { return geometry; };
+        return whole(read_and_run(given, of_mesh, driver, progress));
+    };
+    return has_budget(options) ? mesh_within_budget(options, make) : make(options);
 }
 
 MeshResult generate_mesh(const std::vector<std::string>& inputs, const CaseOptions& options, const Progress& progress) {
-    KeepingDriver driver;
-    return whole(run_on_inputs(inputs, options, driver, progress));
+    const auto make = [&](const CaseOptions& of_mesh) {
+        KeepingDriver driver;
+        return whole(run_on_inputs(inputs, of_mesh, driver, progress));
+    };
+    return has_budget(options) ? mesh_within_budget(options, make) : make(options);
 }
 
 StreamedMesh stream_mesh(const std::vector<std::string>& inputs, const CaseOptions& options, const OpenSink& open_sink,
                          const Progress& progress) {
+    refuse_budget(options);
     if (!options.lines.empty()) throw OptionError("line", "lines need the mesh as a whole: leave --stream out");
     if (options.order > 1) throw OptionError("order", "curved cells need the mesh as a whole: leave --stream out");
     if (!options.geometry.sheets.empty())
@@ -221,6 +230,7 @@ StreamedMesh stream_mesh(const std::vector<std::string>& inputs, const CaseOptio
 
 SharedMesh share_mesh(const std::vector<std::string>& inputs, const CaseOptions& options, Ranks& ranks,
                       const std::optional<std::filesystem::path>& beside, const Progress& progress) {
+    refuse_budget(options);
     if (!options.lines.empty()) throw OptionError("line", "lines are made by one process: leave mpirun out");
     if (options.order > 1) throw OptionError("order", "curved cells are made by one process: leave mpirun out");
     if (!options.geometry.sheets.empty())

@@ -131,4 +131,22 @@ CaseOptions refined(const CaseOptions& options, double ratio, const ReferenceCon
     return result;
 }
 
+CaseOptions with_scale(const CaseOptions& options, double scale) {
+    require_in_range(positive_numbers, scale, "scale");
+    CaseOptions result = options;
+    result.vertices.reset();
+    result.cells.reset();
+    refine_surface(scale, result.surface);
+    if (scale == 1) return result;
+    LayerOptions& layer = result.layer;
+    layer.max_ray_angle_deg = std::min(layer.max_ray_angle_deg / scale, 90.0);
+    if (!layer.layers && layer.growth_law != GrowthLaw::aflr)
+        layer.growth = core::pow_reproducible(layer.growth, 1 / scale);
+    refine_sizing(scale, result.sizing);
+    result.sizing.gradation = std::min(result.sizing.gradation, 1.0);
+    result.fineness *= scale;
+    validate(result);
+    return result;
+}
+
 }  // namespace lamina
