@@ -3,7 +3,7 @@
 // Example:
 //     const PlateLayer layer = plate_layer({.y_plus = 1}, 6e6);
 //     assert(layer.first_height > 4.4e-6 && layer.first_height < 4.5e-6);  // chords
-//     assert(layer.layers > 40 && layer.layers < 60);  // of growth 1.2
+//     assert(layer.layers > 30 && layer.layers < 45);  // of growth 1.2
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,5 @@
 #include "app/adapt_run.hpp"
 
-#include <fcntl.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -26,6 +24,7 @@
 
 #include "app/adapt_page.hpp"
 #include "app/fingerprint.hpp"
+#include "app/folder_lock.hpp"
 #include "app/mesh_command_options.hpp"
 #include "app/mesh_run.hpp"
 #include "app/options.hpp"
@@ -39,25 +38,6 @@ namespace lamina::app {
 namespace fs = std::filesystem;
 
 namespace {
-
-/// Keeps other processes from the folder of the rounds.
-class FolderLock {
-public:
-    explicit FolderLock(const fs::path& folder) : file_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-        if (file_ >= 0 && ::flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-            ::close(file_);
-            throw UsageError(folder.string() + ": another process works on these rounds");
-        }
-    }
-    ~FolderLock() {
-        if (file_ >= 0) ::close(file_);
-    }
-    FolderLock(const FolderLock&) = delete;
-    FolderLock& operator=(const FolderLock&) = delete;
-
-private:
-    int file_;
-};
 
 constexpr const char* marker_name = "round.json";
 
@@ -148,37 +128,17 @@ public:
     /// Changes wall spacings and sizes alone, so that the mesh without a solution has so many vertices: its layers keep
     /// their heights. Returns this mesh, unless it was made for so many before.
     std::optional<MeshResult> aim_at(double vertices) {
-        std::optional<MeshResult> found;
-        if (vertices == aim_) return found;
-        constexpr double good_enough = 0.03;
-        constexpr int most_trials = 8;
-        double low = 0, high = 0, low_miss = 0, high_miss = 0, best = HUGE_VAL, ratio = 1;
-        std::size_t nearest = 0;
-        for (int trial = 0; trial < most_trials && best > good_enough; ++trial) {
-            const CaseOptions options = at_ratio(ratio);
-            MeshResult result = generate_mesh(geometry_, options);
-            const std::size_t made = result.mesh.points.size();
-            const double miss = std::log(static_cast<double>(made) / vertices);
-            if (std::abs(miss) < best) {
-                best = std::abs(miss);
-                nearest = made;
-                options_ = options;
-                found = std::move(result);
-            }
-            (miss < 0 ? low : high) = ratio;
-            (miss < 0 ? low_miss : high_miss) = miss;
-            // The number of vertices grows with a power between 1, that of walls alone, and 2, that of an area.
-            constexpr double usual_power = 1.4;
-            ratio = low > 0 && high > 0
-                        ? low * std::pow(high / low, std::clamp(low_miss / (low_miss - high_miss), 0.1, 0.9))
-                        : ratio * std::exp(-miss / usual_power);
-        }
+        if (vertices == aim_) return {};
+        ScaledMesh found = mesh_of_count(
+            vertices, [&](double ratio) { return generate_mesh(geometry_, at_ratio(ratio)); },
+            [](const MeshResult& result) { return static_cast<double>(result.mesh.points.size()); });
         constexpr double acceptable = 0.05;
-        if (best > acceptable)
-            throw OptionError("vertices", fmt::format("cannot be {:.0f}: the nearest mesh of these layers has {}",
-                                                      vertices, nearest));
+        if (std::abs(std::log(found.count / vertices)) > acceptable)
+            throw OptionError("vertices", fmt::format("cannot be {:.0f}: the nearest mesh of these layers has {:.0f}",
+                                                      vertices, found.count));
+        options_ = at_ratio(found.scale);
         aim_ = vertices;
-        return found;
+        return std::move(found.result);
     }
     /// Returns the viscosity over the speed of the free stream; nothing without a Reynolds number.
     std::optional<double> viscosity() const {

@@ -1,5 +1,6 @@
 // lamina batch: makes the meshes of many inputs, and of many values of options.
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <filesystem>
 #include <memory>
@@ -16,6 +17,7 @@
 #include <lamina/files.hpp>
 #include <lamina/former_options.hpp>
 #include <lamina/io.hpp>
+#include <lamina/value_range.hpp>
 
 #include "app/batch_run.hpp"
 #include "app/commands.hpp"
@@ -43,12 +45,24 @@ struct Sweep {
     std::vector<std::string> values;
 };
 
-/// Splits a text at every comma.
-std::vector<std::string> values_in(std::string_view text) {
+/// Returns whether the option takes numbers, so that a colon between some means a range.
+bool takes_numbers(const Option<MeshCase>& option) {
+    constexpr std::array kinds{OptionKind::number, OptionKind::number_or_range, OptionKind::length, OptionKind::count,
+                               OptionKind::count_or_auto};
+    return std::find(kinds.begin(), kinds.end(), option.kind) != kinds.end();
+}
+
+/// Returns the values between commas, those of each range one by one.
+std::vector<std::string> values_in(std::string_view text, const Option<MeshCase>& option) {
     std::vector<std::string> values;
     for (;;) {
         const std::size_t comma = std::min(text.find(','), text.size());
-        values.emplace_back(text.substr(0, comma));
+        const std::string value(text.substr(0, comma));
+        if (takes_numbers(option) && is_range(value)) {
+            for (const double number : values_of(parse_range(value))) values.push_back(to_text(number));
+        } else {
+            values.push_back(value);
+        }
         if (comma == text.size()) return values;
         text.remove_prefix(comma + 1);
     }
@@ -62,8 +76,13 @@ Sweep parse_sweep(const std::string& text) {
     std::vector<std::string> names;
     for (const Option<MeshCase>& option : mesh_options()) {
         if (option.name == "input" || option.name == "output") continue;
-        if (option.key() == option_key(text.substr(0, equals))) return {&option, values_in(text.substr(equals + 1))};
         names.push_back(option.name);
+        if (option.key() != option_key(text.substr(0, equals))) continue;
+        try {
+            return {&option, values_in(std::string_view(text).substr(equals + 1), option)};
+        } catch (const UsageError& error) {
+            throw UsageError(fmt::format("option --sweep: {}: {}", option.name, error.what()));
+        }
     }
     const std::string name = text.substr(0, equals);
     const FormerOption* former = find_former_option(name);
@@ -292,10 +311,11 @@ void add_batch_command(CLI::App& app) {
         ->type_name("N")
         ->group("Batch");
     command
-        ->add_option("--sweep", arguments->sweeps,
-                     "values of an option to combine, as in reynolds=1e5,1e6; may be given several times, for all "
-                     "combinations")
-        ->type_name("OPTION=A,B,...")
+        ->add_option(
+            "--sweep", arguments->sweeps,
+            "values of an option to combine, as in reynolds=1e5,1e6, or ranges of them, as in alpha=-4:18:2; may be "
+            "given several times, for all combinations")
+        ->type_name("OPTION=A,B:C:STEP,...")
         ->allow_extra_args(false)
         ->group("Batch");
     command->add_option("--shard", arguments->shard, "make the I-th of N parts of the meshes alone, for N machines")

@@ -23,6 +23,7 @@
 #include "app/commands.hpp"
 #include "app/flow_run.hpp"
 #include "app/options.hpp"
+#include "app/polar.hpp"
 #include "app/progress.hpp"
 #include "app/run_files.hpp"
 #include "app/standard_output.hpp"
@@ -76,8 +77,12 @@ std::string side_line(const std::string& name, const std::vector<FlowPoint>& sid
 }
 
 std::string flow_summary(const Flow& flow, bool has_layers) {
-    std::string text = fmt::format("flow at {} degrees: lift coefficient {:.4f} based on the chord {:.6g}\n",
-                                   flow.alpha_deg, flow.lift, flow.chord);
+    std::string text = fmt::format("flow at {} degrees: lift coefficient {:.4f}", flow.alpha_deg, flow.lift);
+    if (has_layers && !flow.estimated) {
+        const FlowForces forces = flow_forces(flow);
+        text += fmt::format(", drag coefficient {:.5f}, moment coefficient {:.4f}", forces.drag, forces.moment);
+    }
+    text += fmt::format(", based on the chord {:.6g}\n", flow.chord);
     for (const ElementFlow& element : flow.elements) {
         text += fmt::format("{}: lift coefficient {:.4f}, stagnation point ({:.5g}, {:.5g})\n", element.name,
                             element.lift, element.stagnation.x, element.stagnation.y);
@@ -244,6 +249,22 @@ std::vector<RunFile> files_written(const FlowArguments& arguments) {
     return files;
 }
 
+/// Computes the flow at each angle of attack, and prints and writes the polar.
+void write_flow_polar(const FlowArguments& arguments, const CaseOptions& options, const Geometry& geometry,
+                      std::span<const RunFile> outputs) {
+    if (!arguments.mach_picture.empty())
+        throw UsageError("option --mach-picture: shows one flow: give one angle of attack");
+    const auto& [conditions, rows] = flow_polar(geometry, options);
+    if (!arguments.table.empty()) write_file(arguments.table, polar_text(arguments.table, conditions, rows));
+    if (!arguments.picture.empty()) {
+        ChartCurve lift{"lift coefficient", {}};
+        for (const PolarRow& row : rows)
+            if (row.cl) lift.points.push_back({row.alpha_deg, *row.cl});
+        plot_chart(std::vector{lift}, arguments.picture, {.x_label = "angle of attack", .y_label = "lift coefficient"});
+    }
+    print_summary(polar_summary(conditions, rows), outputs);
+}
+
 void flow(const FlowArguments& arguments) {
     MeshCase mesh_case = case_of_inputs(arguments.inputs);
     for (const auto& [name, value] : arguments.walls)
@@ -268,6 +289,7 @@ void flow(const FlowArguments& arguments) {
     options.conditions = conditions;
     const Geometry geometry = read_geometry(mesh_case.inputs, options.geometry);
     print_warnings_of_reader(geometry);
+    if (conditions.alphas) return write_flow_polar(arguments, options, geometry, outputs);
     const FlowText text = text_of(find_flow(geometry, options), conditions.mach);
     if (!arguments.mach_picture.empty() && !text.compressible)
         throw UsageError(
@@ -295,11 +317,14 @@ void add_flow_command(CLI::App& app) {
     command
         ->add_option("-o,--output", arguments->table,
                      "CSV file to write: speed, pressure and boundary layer along each side, or pressure, "
-                     "Mach number and boundary layer where it is faster than sound; - for standard output")
+                     "Mach number and boundary layer where it is faster than sound; of a range of angles the polar, as "
+                     "XFOIL writes it, or .csv or .json; - for standard output")
         ->type_name("FILE");
     command
         ->add_option("--picture", arguments->picture,
-                     "picture of the pressure coefficients to write; its extension says the format: .png, .svg or .pdf")
+                     "picture of the pressure coefficients, or of a polar's lift, to write; its extension says the "
+                     "format: .png, "
+                     ".svg or .pdf")
         ->type_name("FILE");
     command
         ->add_option(

@@ -23,6 +23,8 @@ void add_view_command(CLI::App& app);
 void add_convert_command(CLI::App& app);
 void add_info_command(CLI::App& app);
 void add_flow_command(CLI::App& app);
+void add_polar_command(CLI::App& app);
+void add_yplus_command(CLI::App& app);
 void add_delaunay_command(CLI::App& app);
 void add_completion_command(CLI::App& app);
 

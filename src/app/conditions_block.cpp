@@ -82,6 +82,11 @@ std::vector<LengthFact> first_heights(const MeshCase& mesh_case, const MeshResul
     std::vector<LengthFact> facts;
     for (std::size_t e = 0; e < result.first_heights.size(); ++e) {
         const ElementFlow& element = result.flow->elements[e];
+        if (!result.decisions.angles.empty()) {
+            facts.push_back({key, label, input_units(result.first_heights[e]),
+                             "from y+ and the largest skin friction at all angles of attack", element.name});
+            continue;
+        }
         if (!result.decisions.frictions.empty()) {
             facts.push_back({key, label, input_units(result.first_heights[e]),
                              fmt::format("from y+ and the largest skin friction times density, {:.4g}, of compressible "

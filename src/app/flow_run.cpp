@@ -4,12 +4,16 @@
 
 namespace lamina::app {
 
+Geometry in_row(Geometry geometry, const CaseOptions& options) {
+    const FarFieldOptions& domain = options.far_field;
+    if (!domain.pitch) return geometry;
+    const double chord = reference_conditions(options.conditions, reference_box(geometry)).chord;
+    return blade_row(std::move(geometry), in_units(*domain.pitch, chord), domain.stagger_deg);
+}
+
 FoundFlow find_flow(Geometry geometry, const CaseOptions& options) {
     const FlowConditions& conditions = options.conditions;
-    if (const FarFieldOptions& domain = options.far_field; domain.pitch)
-        geometry = blade_row(geometry,
-                             in_units(*domain.pitch, reference_conditions(conditions, reference_box(geometry)).chord),
-                             domain.stagger_deg);
+    geometry = in_row(std::move(geometry), options);
     const ReferenceConditions reference = reference_conditions(conditions, reference_box(geometry));
     const FlowWalls walls = flow_walls(geometry, options);
     FoundFlow found{.flow = solve_flow(prepare_surfaces(geometry, options.surface, reference.chord), conditions, walls),

@@ -16,6 +16,9 @@ struct FoundFlow {
     bool has_layers = false;                         ///< whether a Reynolds number is known
 };
 
+/// Returns the bodies as one blade of a row, where the options ask for it.
+Geometry in_row(Geometry geometry, const CaseOptions& options);
+
 /// Solves compressible flow where it is faster than sound, else potential flow with boundary layers, whose pressures are
 /// those of compressible flow where there is a Mach number. Throws OptionError for options out of range.
 FoundFlow find_flow(Geometry geometry, const CaseOptions& options);

@@ -100,6 +100,8 @@ void run(const std::vector<std::string>& arguments, Ranks* ranks) {
     add_convert_command(app);
     add_info_command(app);
     add_flow_command(app);
+    add_polar_command(app);
+    add_yplus_command(app);
     add_delaunay_command(app);
     add_completion_command(app);
     for (CLI::App* command : app.get_subcommands({})) command->set_version_flag("--version", version)->group("");

@@ -1,0 +1,79 @@
+// lamina polar: forces at many angles of attack, by a flow solver or by lamina's own flow.
+#include <algorithm>
+#include <memory>
+#include <string>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <lamina/error.hpp>
+
+#include "app/commands.hpp"
+#include "app/mesh_command_options.hpp"
+#include "app/polar_run.hpp"
+#include "app/standard_output.hpp"
+#include "app/table_option.hpp"
+
+namespace lamina::app {
+
+namespace {
+
+constexpr const char* own_flow = "flow";
+
+struct PolarArguments {
+    std::string solver = own_flow, folder, turbulence;
+    GivenOptions mesh;
+};
+
+void polar(const PolarArguments& arguments) {
+    MeshCase mesh_case = case_of_command_line(arguments.mesh);
+    if (!mesh_case.options.conditions.alphas)
+        throw UsageError("option --alpha: a polar needs a range of angles, such as -4:18:1");
+    mesh_case.outputs.clear();
+    for (const auto& [file, option] : files_beside_mesh) (mesh_case.*file).clear();
+    const PolarSettings settings{arguments.folder, fmt::format("\n{}\n{}", arguments.solver, arguments.turbulence)};
+    SolverCaseOptions options;
+    set_by_name(option_table<SolverCaseOptions>(), "turbulence", arguments.turbulence, options);
+    const std::vector<PolarRow> rows =
+        arguments.solver == own_flow
+            ? run_polar_of_flow(settings, mesh_case)
+            : run_polar_of_solver(settings, mesh_case, *adapt_solver(arguments.solver, options));
+    const FlowConditions& conditions = mesh_case.options.conditions;
+    if (!mesh_case.quiet)
+        print_result(polar_summary(
+            {fmt::format("{}", fmt::join(mesh_case.inputs, " ")), conditions.reynolds, conditions.mach}, rows));
+    const auto loose = std::count_if(rows.begin(), rows.end(), [](const PolarRow& row) { return !row.steady; });
+    if (loose > 0)
+        throw MeshError(fmt::format("{} of {} angles are not steady; {}/polar.csv says which", loose, rows.size(),
+                                    arguments.folder));
+}
+
+}  // namespace
+
+void add_polar_command(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("polar", "compute lift and drag at many angles of attack");
+    auto arguments = std::make_shared<PolarArguments>();
+    command
+        ->add_option(
+            "--solver", arguments->solver,
+            "flow: potential flow with boundary layers, without a mesh, for attached flow; openfoam, su2, or a "
+            "command, as for lamina adapt: on one mesh that serves all angles, each from the flow of the one "
+            "before [flow]")
+        ->type_name("flow|openfoam|su2|COMMAND")
+        ->group("Polar");
+    command
+        ->add_option(
+            "-o,--output", arguments->folder,
+            "folder of the cases, alpha_N, and of polar.csv, polar.json and polar.txt, which is as XFOIL writes "
+            "it; angles that are there are kept")
+        ->required()
+        ->type_name("FOLDER")
+        ->group("Polar");
+    add_table_option(*command, option_table<SolverCaseOptions>(), "turbulence", arguments->turbulence)->group("Polar");
+    arguments->mesh = add_mesh_options(*command, {"output", "format", "parts", "span", "span-cells", "span-ends",
+                                                  "wall-distance", "stream", "wall-data", "report", "html"});
+    command->footer("Exit code 4: an angle is not steady, stalled, or failed; its row says so.");
+    command->callback([arguments] { polar(*arguments); });
+}
+
+}  // namespace lamina::app

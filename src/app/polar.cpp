@@ -1,0 +1,182 @@
+#include "app/polar.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <lamina/compressible_flow.hpp>
+
+#include "app/adapt_page.hpp"
+#include "app/flow_run.hpp"
+
+namespace lamina::app {
+
+namespace {
+
+/// A layer that leaves the wall behind this share of its side is taken for attached: at trailing edges that of potential
+/// flow always does.
+constexpr double attached_share = 0.95;
+
+/// Returns the element with the longest sides.
+const ElementFlow& longest(const Flow& flow) {
+    return *std::max_element(flow.elements.begin(), flow.elements.end(), [](const auto& a, const auto& b) {
+        return a.upper.back().s + a.lower.back().s < b.upper.back().s + b.lower.back().s;
+    });
+}
+
+/// Returns where the layer of a side becomes turbulent, as a share of the element's extent in x; 1 where it does not.
+double transition_on(const std::vector<FlowPoint>& side, const Box& box) {
+    const auto turbulent = std::find_if(side.begin(), side.end(),
+                                        [](const FlowPoint& p) { return p.state != BoundaryLayerState::laminar; });
+    return turbulent == side.end() ? 1 : (turbulent->at.x - box.lower.x) / box.width();
+}
+
+bool is_attached(const Flow& flow) {
+    for (const ElementFlow& element : flow.elements)
+        for (const auto* side : {&element.upper, &element.lower})
+            for (const FlowPoint& p : *side)
+                if (p.state == BoundaryLayerState::separated && p.s < attached_share * side->back().s) return false;
+    return true;
+}
+
+void add_transition(const Flow& flow, PolarRow& row) {
+    const ElementFlow& element = longest(flow);
+    Box box;
+    for (const auto* side : {&element.upper, &element.lower})
+        for (const FlowPoint& p : *side) box.include(p.at);
+    row.top_xtr = transition_on(element.upper, box);
+    row.bottom_xtr = transition_on(element.lower, box);
+}
+
+PolarRow row_of_potential_flow(const Flow& flow, bool has_layers) {
+    PolarRow row{.alpha_deg = flow.alpha_deg, .state = "attached"};
+    if (flow.estimated) {
+        row.state = "failed";
+        row.steady = false;
+        row.note = flow.warnings.front().message;
+        return row;
+    }
+    const FlowForces forces = flow_forces(flow);
+    row.cl = forces.lift;
+    row.cm = forces.moment;
+    if (!has_layers) {
+        row.state = "inviscid";
+        return row;
+    }
+    row.cd = forces.drag;
+    row.cdp = forces.drag - forces.friction_drag;
+    add_transition(flow, row);
+    if (!is_attached(flow)) row.state = "separated";
+    if (!flow.warnings.empty()) {
+        row.state = "stalled";
+        row.steady = false;
+        row.note = flow.warnings.front().message;
+    }
+    return row;
+}
+
+/// `given` are the bodies as read, `prepared` those with smooth walls.
+PolarRow row_at(const Geometry& given, const Geometry& prepared, const FlowConditions& conditions,
+                const FlowWalls& walls) {
+    Flow flow = solve_flow(prepared, conditions, walls);
+    if (!flow.estimated && is_beyond_critical(flow, conditions)) {
+        const CompressibleFlow compressible = solve_compressible_flow(given, conditions);
+        PolarRow row{.alpha_deg = flow.alpha_deg, .state = compressible.converged ? "steady" : "not steady"};
+        row.steady = compressible.converged;
+        row.cl = compressible.lift;
+        row.cd = compressible.drag;
+        return row;
+    }
+    if (conditions.mach && !flow.estimated) flow = with_compressed_pressures(std::move(flow), *conditions.mach);
+    return row_of_potential_flow(flow, conditions.reynolds || conditions.velocity);
+}
+
+std::string column(const std::optional<double>& value, int width, int digits) {
+    return value ? fmt::format("{:{}.{}f}", *value, width, digits) : fmt::format("{:>{}}", "-", width);
+}
+
+Json json_number(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
+
+}  // namespace
+
+FlowPolar flow_polar(Geometry geometry, const CaseOptions& options) {
+    geometry = in_row(std::move(geometry), options);
+    const ReferenceConditions reference = reference_conditions(options.conditions, reference_box(geometry));
+    FlowPolar polar{{"", reference.reynolds, reference.mach}, {}};
+    for (const Element& element : geometry.elements)
+        polar.conditions.name += (polar.conditions.name.empty() ? "" : " ") + element.name;
+    const Geometry prepared = prepare_surfaces(geometry, options.surface, reference.chord);
+    const FlowWalls walls = flow_walls(geometry, options);
+    for (const FlowConditions& conditions : conditions_of_angles(options.conditions))
+        polar.rows.push_back(row_at(geometry, prepared, conditions, walls));
+    return polar;
+}
+
+std::string polar_summary(const PolarConditions& conditions, std::span<const PolarRow> rows) {
+    std::string text = "polar of " + conditions.name;
+    if (conditions.reynolds) text += fmt::format(", Reynolds number {:.4g}", *conditions.reynolds);
+    if (conditions.mach) text += fmt::format(", Mach {:.4g}", *conditions.mach);
+    text += "\n   alpha       CL        CD       CDp       CM  Top_Xtr  Bot_Xtr  state\n";
+    for (const PolarRow& row : rows)
+        text += fmt::format("{:8.3f} {} {} {} {} {} {}  {}\n", row.alpha_deg, column(row.cl, 8, 4),
+                            column(row.cd, 9, 5), column(row.cdp, 9, 5), column(row.cm, 8, 4),
+                            column(row.top_xtr, 8, 4), column(row.bottom_xtr, 8, 4), row.state);
+    return text;
+}
+
+std::string polar_csv(std::span<const PolarRow> rows) {
+    std::string text = "alpha,CL,CD,CDp,CM,top_xtr,bottom_xtr,state,steady\n";
+    for (const PolarRow& row : rows)
+        text += fmt::format("{},{},{},{},{},{},{},{},{}\n", row.alpha_deg, optional_text(row.cl), optional_text(row.cd),
+                            optional_text(row.cdp), optional_text(row.cm), optional_text(row.top_xtr),
+                            optional_text(row.bottom_xtr), row.state, row.steady ? "yes" : "no");
+    return text;
+}
+
+Json polar_json(const PolarConditions& conditions, std::span<const PolarRow> rows) {
+    Json list = Json::array();
+    for (const PolarRow& row : rows)
+        list.push_back({{"alpha", row.alpha_deg},
+                        {"CL", json_number(row.cl)},
+                        {"CD", json_number(row.cd)},
+                        {"CDp", json_number(row.cdp)},
+                        {"CM", json_number(row.cm)},
+                        {"top_xtr", json_number(row.top_xtr)},
+                        {"bottom_xtr", json_number(row.bottom_xtr)},
+                        {"state", row.state},
+                        {"steady", row.steady},
+                        {"note", row.note}});
+    return {{"name", conditions.name},
+            {"reynolds", json_number(conditions.reynolds)},
+            {"mach", json_number(conditions.mach)},
+            {"rows", list}};
+}
+
+std::string polar_of_xfoil(const PolarConditions& conditions, std::span<const PolarRow> rows) {
+    // Readers of the format look for what stands in these columns and lines.
+    std::string text = fmt::format(
+        " \n       XFOIL         Version 6.99\n  \n Calculated polar for: {:<48}\n  \n"
+        " 1 1 Reynolds number fixed          Mach number fixed         \n  \n"
+        " xtrf =   1.000 (top)        1.000 (bottom)  \n"
+        " Mach = {:7.3f}     Re = {:9.3f} e 6     Ncrit =   0.000\n  \n"
+        "   alpha    CL        CD       CDp       CM     Top_Xtr  Bot_Xtr\n"
+        "  ------ -------- --------- --------- -------- -------- --------\n",
+        conditions.name, conditions.mach.value_or(0), 1e-6 * conditions.reynolds.value_or(0));
+    for (const PolarRow& row : rows)
+        if (row.steady && row.cl && row.cd)
+            text += fmt::format("{:8.3f} {:8.4f} {:9.5f} {:9.5f} {:8.4f} {:8.4f} {:8.4f}\n", row.alpha_deg, *row.cl,
+                                *row.cd, row.cdp.value_or(0), row.cm.value_or(0), row.top_xtr.value_or(1),
+                                row.bottom_xtr.value_or(1));
+    return text;
+}
+
+std::string polar_text(const std::string& file, const PolarConditions& conditions, std::span<const PolarRow> rows) {
+    const std::string extension = std::filesystem::path(file).extension().string();
+    if (extension == ".csv") return polar_csv(rows);
+    if (extension == ".json") return to_text(polar_json(conditions, rows));
+    return polar_of_xfoil(conditions, rows);
+}
+
+}  // namespace lamina::app

@@ -1,0 +1,56 @@
+// Polars: forces at many angles of attack, as tables.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <lamina/flow.hpp>
+#include <lamina/geometry.hpp>
+#include <lamina/pipeline.hpp>
+
+#include "app/report.hpp"
+
+namespace lamina::app {
+
+/// The forces at one angle of attack, and what can be said of them. Numbers that nobody has found are empty.
+struct PolarRow {
+    double alpha_deg = 0;
+    std::string state;   ///< whether the numbers can be trusted, in one word: "attached", "steady", "stalled"
+    bool steady = true;  ///< whether the state is one of a steady flow that the method is for
+    std::optional<double> cl{}, cd{}, cdp{}, cm{};
+    std::optional<double> top_xtr{},
+        bottom_xtr{};    ///< transition on the longest element, as a share of its extent in x
+    std::string note{};  ///< more about the state
+};
+
+/// What all rows of a polar have in common.
+struct PolarConditions {
+    std::string name;  ///< of the configuration
+    std::optional<double> reynolds{}, mach{};
+};
+
+/// A polar.
+struct FlowPolar {
+    PolarConditions conditions;
+    std::vector<PolarRow> rows;
+};
+
+/// Returns the polar of the flow before the mesh at the angles of the options (FlowConditions::alphas): potential flow with
+/// boundary layers, or compressible flow where it is faster than sound.
+FlowPolar flow_polar(Geometry geometry, const CaseOptions& options);
+
+/// Returns the rows for people.
+std::string polar_summary(const PolarConditions& conditions, std::span<const PolarRow> rows);
+/// Returns the rows with their states as CSV.
+std::string polar_csv(std::span<const PolarRow> rows);
+/// Returns the rows with their states as JSON.
+Json polar_json(const PolarConditions& conditions, std::span<const PolarRow> rows);
+/// Returns the polar in the format of XFOIL 6.99 (PACC), which has no states: rows without drag, and those that are not
+/// steady, are left out.
+std::string polar_of_xfoil(const PolarConditions& conditions, std::span<const PolarRow> rows);
+/// Returns the polar in the format that the extension of a file says: .csv, .json, or else XFOIL's.
+std::string polar_text(const std::string& file, const PolarConditions& conditions, std::span<const PolarRow> rows);
+
+}  // namespace lamina::app

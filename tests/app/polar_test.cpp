@@ -1,0 +1,146 @@
+// Polars: lamina flow with a range of angles, lamina polar, lamina yplus, ranges in sweeps. A script stands in for the solver.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "app/program.hpp"
+
+namespace lamina::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(FlowPolar, IsPrintedAndWrittenAsXfoilDoes) {
+    const TemporaryFolder folder;
+    const ProgramRun run = run_lamina(
+        folder, {"flow", "naca:0012", "--alpha", "-4:18:2", "--reynolds", "3e6", "-o", "a.txt", "--picture", "a.svg"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const std::vector<std::string> said = lines_of(run.out);
+    ASSERT_EQ(said.size(), 2u + 12u) << run.out;
+    EXPECT_NE(said[2].find("-4.000"), std::string::npos) << said[2];
+    EXPECT_NE(said[2].find("attached"), std::string::npos) << said[2];
+    EXPECT_NE(said.back().find("stalled"), std::string::npos) << said.back();
+    const std::vector<std::string> rows = lines_of(folder.read("a.txt"));
+    ASSERT_GT(rows.size(), 12u + 5u);
+    EXPECT_EQ(rows[8], " Mach =   0.000     Re =     3.000 e 6     Ncrit =   0.000");
+    EXPECT_EQ(rows[10], "   alpha    CL        CD       CDp       CM     Top_Xtr  Bot_Xtr");
+    // Columns have the widths of XFOIL's; rows that are not steady are left out.
+    for (std::size_t i = 12; i < rows.size(); ++i) EXPECT_EQ(rows[i].size(), rows[11].size()) << rows[i];
+    EXPECT_LT(rows.size(), 12u + 12u);
+    EXPECT_EQ(run_lamina(folder, {"flow", "naca:0012", "--alpha=0:2", "-o", "b.csv"}).exit_code, 0);
+    EXPECT_EQ(lines_of(folder.read("b.csv")).size(), 4u);
+    EXPECT_NE(folder.read("b.csv").find("inviscid"), std::string::npos);
+}
+
+TEST(FlowPolar, TakesRangesFromCaseFilesAndRefusesWrongOnes) {
+    const TemporaryFolder folder;
+    folder.write("case.toml", "input = \"naca:0012\"\nalpha = \"-2:2:2\"\nreynolds = 1e6\n");
+    EXPECT_EQ(run_lamina(folder, {"flow", "case.toml", "-o", "a.json"}).exit_code, 0);
+    const auto polar = nlohmann::json::parse(folder.read("a.json"));
+    EXPECT_EQ(polar["rows"].size(), 3u);
+    EXPECT_EQ(polar["rows"][0]["alpha"], -2);
+    const TemporaryFolder empty;
+    for (const char* range : {"0:10:0", "0:10:-1", "0:1e9:1", "0:1e9"})
+        expect_refused(empty, {"flow", "naca:0012", "--alpha", range}, usage, "option --alpha");
+    expect_refused(empty, {"flow", "naca:0012", "--alpha", "10:0"}, usage, "A is above B");
+    expect_refused(empty, {"flow", "naca:0012", "--alpha", "0:100"}, usage, "90");
+    expect_refused(empty, {"mesh", "naca:0012", "--alpha", "0:x", "-o", "a.su2"}, usage, "option --alpha");
+    expect_refused(empty, {"case", "su2", "naca:0012", "--alpha", "0:4", "--reynolds", "1e6", "-o", "a"}, usage,
+                   "lamina polar");
+    expect_refused(empty, {"mesh", "naca:0012", "--alpha", "0:4", "--tunnel", "3", "-o", "a.su2"}, usage, "alpha");
+}
+
+TEST(Sweeps, TakeRanges) {
+    const TemporaryFolder folder;
+    const ProgramRun run = run_lamina(
+        folder, {"batch", "naca:0012", "-o", "{name}_{alpha}_{growth}.su2", "--sweep", "alpha=-1:1,4", "--sweep",
+                 "growth=1.2:1.3:0.1", "--far-field", "5", "--layers", "3", "--first-height", "1e-3", "--quiet"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    for (const char* alpha : {"-1", "0", "1", "4"})
+        for (const char* growth : {"1.2", "1.3"})
+            EXPECT_TRUE(fs::exists(folder / ("naca_0012_" + std::string(alpha) + "_" + growth + ".su2"))) << alpha;
+    const TemporaryFolder empty;
+    expect_refused(empty, {"batch", "naca:0012", "-o", "{alpha}.su2", "--sweep", "alpha=4:0"}, usage, "A is above B");
+    expect_refused(empty, {"batch", "naca:0012", "-o", "{reynolds}.su2", "--sweep", "reynolds=1:1e9:1"}, usage,
+                   "10000 values");
+}
+
+TEST(PolarCommand, WritesThePolarOfTheFlowAndSaysWhereItIsStalled) {
+    const TemporaryFolder folder;
+    const std::vector<std::string> attached{"polar", "naca:0012", "--alpha", "0:4:2", "--reynolds", "3e6", "-o", "out"};
+    const ProgramRun run = run_lamina(folder, attached);
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    for (const char* file : {"out/polar.csv", "out/polar.json", "out/polar.txt"})
+        EXPECT_TRUE(fs::exists(folder / file)) << file;
+    const ProgramRun stalled =
+        run_lamina(folder, {"polar", "naca:0012", "--alpha", "0:20:10", "--reynolds", "3e6", "-o", "out"});
+    EXPECT_EQ(stalled.exit_code, mesh_failed);
+    EXPECT_NE(stalled.err.find("1 of 3 angles are not steady"), std::string::npos) << stalled.err;
+    EXPECT_NE(folder.read("out/polar.csv").find(",stalled,no"), std::string::npos);
+    const TemporaryFolder empty;
+    expect_refused(empty, {"polar", "naca:0012", "--alpha", "4", "-o", "out"}, usage, "a polar needs a range");
+}
+
+TEST(PolarCommand, RunsASolverAtEachAngleAndGoesOnWhereItWas) {
+    const TemporaryFolder folder;
+    // Lift is a tenth of the angle; the flow at 4 degrees is not steady at first.
+    folder.write("solve.sh", "#!/bin/sh\necho call >>\"$1/../../calls\"\npython3 " LAMINA_SOLUTION_SCRIPT
+                             " mesh.su2 solution.vtu || exit 9\nalpha=$(sed -n 's/^alpha = //p' case.toml)\n"
+                             "steady=yes\n[ \"$alpha\" = 2.0 ] && steady=no\n[ \"$alpha\" = 2 ] && steady=no\n"
+                             "[ -f start.vtu ] && echo start >>\"$1/../../starts\"\n"
+                             "printf 'CL,CD,steady\\n%s,0.01,%s\\n' $alpha $steady >forces.csv\n");
+    const std::vector<std::string> arguments{
+        "polar",       "naca:0012", "--alpha", "0:6:2", "--solver", "sh ../../solve.sh {case}",
+        "--far-field", "10",        "-o",      "out"};
+    const ProgramRun run = run_lamina(folder, arguments);
+    EXPECT_EQ(run.exit_code, mesh_failed) << run.err;
+    EXPECT_NE(run.err.find("1 of 4 angles"), std::string::npos) << run.err;
+    EXPECT_EQ(lines_of(folder.read("calls")).size(), 4u);
+    EXPECT_EQ(lines_of(folder.read("starts")).size(), 3u);
+    const std::vector<std::string> rows = lines_of(folder.read("out/polar.csv"));
+    ASSERT_EQ(rows.size(), 5u);
+    EXPECT_EQ(rows[1], "0,0,0.01,,,,,steady,yes");
+    EXPECT_EQ(rows[2], "2,2,0.01,,,,,not steady,no");
+    EXPECT_EQ(rows[4], "6,6,0.01,,,,,steady,yes");
+    // What is there is kept; an angle that was removed is solved again.
+    fs::remove_all(folder / "out/alpha_6");
+    EXPECT_EQ(run_lamina(folder, arguments).exit_code, mesh_failed);
+    EXPECT_EQ(lines_of(folder.read("calls")).size(), 5u);
+    EXPECT_EQ(lines_of(folder.read("out/polar.csv")), rows);
+}
+
+TEST(YPlusCommand, ComputesFirstHeightsWithoutASection) {
+    const TemporaryFolder folder;
+    const ProgramRun run = run_lamina(folder, {"yplus", "--reynolds", "6e6", "--y-plus", "1", "--chord", "2"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_NE(run.out.find("4.457e-06 chords, 8.914e-06 units"), std::string::npos) << run.out;
+    const ProgramRun back =
+        run_lamina(folder, {"yplus", "--velocity", "90", "--viscosity", "1.5e-5", "--first-height", "8.914e-6u"});
+    ASSERT_EQ(back.exit_code, 0) << back.err;
+    EXPECT_NE(back.out.find("y+          2"), std::string::npos) << back.out;
+    expect_refused(folder, {"yplus"}, usage, "reynolds");
+    expect_refused(folder, {"yplus", "--reynolds", "1e6", "--y-plus", "1", "--first-height", "1e-5"}, usage,
+                   "exclude each other");
+}
+
+TEST(MeshCommand, ServesARangeOfAnglesAndABudget) {
+    const TemporaryFolder folder;
+    const ProgramRun run =
+        run_lamina(folder, {"mesh", "naca:4412", "--alpha", "0:12:4", "--reynolds", "1e6", "--far-field", "10",
+                            "--vertices", "20000", "-o", "a.su2", "--report", "a.json"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_NE(run.out.find("one mesh for all angles"), std::string::npos) << run.out;
+    const auto report = nlohmann::json::parse(folder.read("a.json"));
+    EXPECT_NEAR(report["vertices"].get<double>(), 20000, 0.03 * 20000);
+    EXPECT_NE(report["scale"].get<double>(), 1);
+    EXPECT_EQ(report["conditions"]["angles"].size(), 4u);
+    expect_refused(folder, {"mesh", "naca:0012", "--vertices", "20000", "--cells", "9000", "-o", "b.su2"}, usage,
+                   "exclude each other");
+}
+
+}  // namespace
+}  // namespace lamina::test
