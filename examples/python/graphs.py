@@ -14,7 +14,7 @@ import lamina
 
 def graphs(count):
     """Yields the graphs of meshes round NACA sections of different camber and thickness."""
-    names = [f"naca:{camber}4{thickness:02d}" for thickness in range(8, 25) for camber in range(7)]
+    names = [f"naca:{camber}4{thickness:02d}" for thickness in range(8, 25) for camber in range(1, 7)]
     for result in lamina.batch(names[:count], reynolds=1e6, growth=1.3, gradation=0.3):
         if result.error is not None:
             raise result.error
@@ -25,7 +25,7 @@ def graphs(count):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--meshes", type=int, default=100, choices=range(1, 120), metavar="N")
+    parser.add_argument("--meshes", type=int, default=100, choices=range(1, 103), metavar="N")
     parser.add_argument("-o", "--output", default="graphs.pt", help="file of all graphs, for torch.load()")
     arguments = parser.parse_args()
     if importlib.util.find_spec("torch_geometric") is None:

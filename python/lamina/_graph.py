@@ -38,7 +38,8 @@ def find_edges(triangles: np.ndarray, quads: np.ndarray) -> MeshEdges:
     parts = [_edges_of_cells(triangles, 0), _edges_of_cells(quads, len(triangles))]
     ends, cell, side = (np.concatenate(column) for column in zip(*parts))
     ends.sort(axis=1)
-    order = np.lexsort((cell, ends[:, 1], ends[:, 0]))
+    # One number for both ends. The order of cells stays where these are equal.
+    order = np.argsort(ends[:, 0] * (int(ends.max(initial=0)) + 1) + ends[:, 1], kind="stable")
     ends, cell, side = ends[order], cell[order], side[order]
     is_first = np.ones(len(ends), dtype=bool)
     is_first[1:] = (ends[1:] != ends[:-1]).any(axis=1)
