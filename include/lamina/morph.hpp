@@ -9,7 +9,8 @@
 // Limits:
 //  1. The outer boundary, and all markers that are no walls, stay. Lines inside the mesh move with it.
 //     In slots that close, rays get shorter beyond their first ten layers.
-//  2. A map is one step from its reference mesh. Motions that turn a cell over end before that, or with a MeshError.
+//  2. A map is one step from its reference mesh. Motions that turn a cell over end before that, or with a MeshError, unless
+//     MorphOptions::incremental makes several steps of them.
 // Example:
 //     const Mesh mesh = generate_mesh({"naca:0012:80"}, {.layer = {.first_height = 1e-3, .layers = 8}}).mesh;
 //     const MorphMap map(mesh);
@@ -26,6 +27,8 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
+#include <variant>
 #include <vector>
 
 #include <lamina/geometry.hpp>
@@ -46,6 +49,8 @@ public:
     const WallVertices& walls() const;              ///< the vertices that move as they are told
     const std::vector<Point>& wall_points() const;  ///< where they are in the reference mesh
 
+    // These three throw InputError for other numbers of points.
+
     /// Returns the places of all vertices where the wall vertices, in the order of walls(), move to these points.
     std::vector<Point> positions(std::span<const Point> wall) const;
     /// Returns the derivative of positions() in a direction of the wall points.
@@ -61,13 +66,17 @@ private:
 /// Options of morph().
 struct MorphOptions {
     bool as_far_as_possible = false;  ///< whether a motion that stops on the way is returned as far as it goes
+    /// Whether a motion that stops goes on from a mesh half as far, by a map of that mesh, and so on. Walls get there in a
+    /// straight line. The derivative of the first map is not that of the result.
+    bool incremental = false;
 };
 
 /// A mesh that was morphed, without its cells, which are those of the reference.
 struct MorphResult {
     std::vector<Point> points;         ///< the places of all vertices
-    double fraction = 1;               ///< how much of the motion was made: a multiple of 1/64
-    std::optional<MeshDefect> stop{};  ///< the cell that stops it, and where it is in the reference mesh; empty: none
+    double fraction = 1;               ///< how much of the motion was made: in one step, a multiple of 1/64
+    std::optional<MeshDefect> stop{};  ///< the cell that stops it, and where it is before the last map; empty: none
+    int maps = 1;                      ///< by how many maps it was made, one after the other
 };
 
 /// Moves the wall vertices in the order of MorphMap::walls() to these points, or in a straight line as far as all cells
@@ -89,6 +98,33 @@ LAMINA_EXPORT std::vector<Point> moved_wall_points(const MorphMap& map, std::spa
 /// the line where it is none of these, or names a vertex that is on no wall or was named before.
 LAMINA_EXPORT std::vector<Point> displaced_wall_points(const MorphMap& map, const std::filesystem::path& file);
 
+/// A turn that swings: mean + amplitude sin(2 pi frequency time).
+struct Pitching {
+    double mean_deg = 0, amplitude_deg = 0;
+    double frequency = 0;  ///< periods in a unit of time, > 0
+};
+
+/// A turn that begins and ends at rest: angle (1 - cos(pi time / duration)) / 2, and the angle from then on.
+struct Deflecting {
+    double angle_deg = 0;
+    double duration = 0;  ///< > 0
+};
+
+/// How an element turns about a point as time goes on. Angles are positive clockwise: nose up, trailing edge down.
+struct TurnInTime {
+    std::string element;  ///< name of the element, or "all"
+    std::variant<Pitching, Deflecting> course;
+    Point center{};
+};
+
+/// Reads "ELEMENT:pitch:MEAN:AMPLITUDE:FREQUENCY[:X,Y]" or "ELEMENT:deflect:DEG:DURATION[:X,Y]". Throws UsageError with the
+/// bare reason, also for numbers out of range.
+LAMINA_EXPORT TurnInTime parse_turn_in_time(const std::string& text);
+/// Returns the time of one period, or the duration.
+LAMINA_EXPORT double duration_of(const TurnInTime& turn);
+/// Returns the turn that the element has made at a time >= 0.
+LAMINA_EXPORT Transformation turn_at(const TurnInTime& turn, double time);
+
 /// The quality of all cells of a mesh.
 struct MorphQuality {
     double min_angle_deg = 0;       ///< smallest angle
@@ -106,7 +142,7 @@ struct MorphReport {
     Point max_first_height_change_at{};  ///< at this wall vertex of the reference mesh
 };
 
-/// Measures both meshes. Precondition: `points` are those of a MorphResult of the map.
+/// Measures both meshes. Throws InputError for another number of points.
 LAMINA_EXPORT MorphReport compare_morphed(const MorphMap& map, std::span<const Point> points);
 
 }  // namespace lamina

@@ -16,6 +16,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <utility>
 
 #include <lamina/flow.hpp>
@@ -104,5 +105,16 @@ LAMINA_EXPORT void write_solver_case(FlowSolver solver, const Mesh& mesh, const 
 /// another mesh or has numbers that are not finite.
 LAMINA_EXPORT void start_case_from(FlowSolver solver, const std::filesystem::path& solved,
                                    const std::filesystem::path& folder, double lift);
+
+/// Writes a case of OpenFOAM whose mesh moves, without its times: the mesh, and an Allrun that takes the flow from a steady
+/// case of the same mesh and lets it go on by pimpleFoam. Throws UsageError for the mesh of an axisymmetric flow.
+LAMINA_EXPORT void write_moving_case(const Mesh& reference, const std::filesystem::path& folder);
+/// Gives the case the places of all vertices at a time, in the order of the mesh: as points, which checkMesh reads, and as
+/// displacements, which pimpleFoam follows.
+LAMINA_EXPORT void add_moved_points(const Mesh& reference, std::span<const Point> points, double time,
+                                    const std::filesystem::path& folder);
+/// Returns the names of all files of such a case with these times. The first is the folder of the mesh.
+LAMINA_EXPORT std::vector<std::filesystem::path> moving_case_outputs(const std::filesystem::path& folder,
+                                                                     std::span<const double> times);
 
 }  // namespace lamina

@@ -59,14 +59,14 @@ public:
         return computed([&] { return moved_wall_points(*map_, transformations); });
     }
 
-    /// Returns the mesh, the fraction of the motion that was made, and the text of the cell that stops it.
-    nb::tuple morph(const PointsArgument& wall, bool as_far_as_possible) const {
+    /// Returns the mesh, the fraction of the motion that was made, the number of maps that made it, and the text of the cell that stops it.
+    nb::tuple morph(const PointsArgument& wall, bool as_far_as_possible, bool incremental) const {
         MorphResult result;
         const std::vector<Point> at = at_walls(wall);
-        run_unlocked([&] { result = lamina::morph(*map_, at, {.as_far_as_possible = as_far_as_possible}); });
+        run_unlocked([&] { result = lamina::morph(*map_, at, {as_far_as_possible, incremental}); });
         Mesh morphed = *mesh_;
         morphed.points = std::move(result.points);
-        return nb::make_tuple(shared(std::move(morphed)), result.fraction,
+        return nb::make_tuple(shared(std::move(morphed)), result.fraction, result.maps,
                               result.stop ? result.stop->description : std::string());
     }
 

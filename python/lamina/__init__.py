@@ -22,6 +22,7 @@ from ._meshing import mesh
 from ._morph import MorphMap
 from ._remesh import RemeshedMesh, read_metric, remesh
 from ._sections import naca, outlines
+from ._shape_parameters import ShapeParameters, cst_shape, hicks_henne_shape, hinge_shape, naca_shape
 from ._triangulation import (IndexLists, Triangulation, VoronoiDiagram, constrain_triangles, constrained_delaunay,
                              delaunay, merge_points, refine, ring_segments)
 
@@ -32,10 +33,11 @@ if TYPE_CHECKING:
 __all__ = ["BOUNDARY_LAYER_STATES", "BatchResult", "DynamicTriangulation", "ElementFlow", "Error", "FamilyMember",
            "Flow", "FlowSide", "IndexLists", "Info", "InputError", "IoError", "LimitError", "Mesh", "MeshCheck",
            "MeshError", "MeshWarning", "MorphMap", "NODE_TYPES", "OptionError", "Page", "QualitySummary",
-           "RemeshedMesh", "RunEstimate", "SolutionSizes", "TransitionSummary", "Triangulation", "UsageError",
-           "VoronoiDiagram", "WallSummary", "WallVertices", "WrongTypeError", "__version__", "batch", "case", "check",
-           "constrain_triangles", "constrained_delaunay", "convert", "delaunay", "family", "flow", "formats", "info",
-           "merge_points", "mesh", "mesh_of_arrays", "naca", "outlines", "read", "read_metric", "refine", "remesh",
+           "RemeshedMesh", "RunEstimate", "ShapeParameters", "SolutionSizes", "TransitionSummary", "Triangulation",
+           "UsageError", "VoronoiDiagram", "WallSummary", "WallVertices", "WrongTypeError", "__version__", "batch",
+           "case", "check", "constrain_triangles", "constrained_delaunay", "convert", "cst_shape", "delaunay",
+           "family", "flow", "formats", "hicks_henne_shape", "hinge_shape", "info", "merge_points", "mesh",
+           "mesh_of_arrays", "naca", "naca_shape", "outlines", "read", "read_metric", "refine", "remesh",
            "ring_segments", "sizes", "view", "write"]
 
 

@@ -23,7 +23,7 @@ class MorphMap:
     """
 
     def __init__(self, mesh: Mesh) -> None:
-        self._mesh = mesh
+        self.mesh = mesh  #: that it is made for
         self._map = _lamina.MorphMap(mesh._data)
         self.wall = self._map.wall()  #: (n,) indices of the wall vertices into Mesh.points
         self.wall_points = self._map.wall_points()  #: (n, 2) where they are in the mesh
@@ -46,15 +46,16 @@ class MorphMap:
         """Returns the wall points with bodies changed, as `transform` of `lamina.mesh()` does: "flap:rotate:-5:0.8,0"."""
         return self._map.walls_moved(list(changes))
 
-    def morph(self, wall: Any, *, as_far_as_possible: bool = False) -> Mesh:
+    def morph(self, wall: Any, *, as_far_as_possible: bool = False, incremental: bool = False) -> Mesh:
         """Returns the mesh with its wall vertices at these points.
 
         Raises MeshError, which names the cell, where a cell would turn over on the way; with `as_far_as_possible` the
-        mesh goes as far as it can, and `facts["fraction"]` says how far.
+        mesh goes as far as it can, and `facts["fraction"]` says how far. With `incremental` the motion goes on from a mesh
+        half as far, by a map of that mesh; with more than one of `facts["maps"]` the derivative is not that of the result.
         """
-        data, fraction, stopped_by = self._map.morph(points_array(wall, "wall"), as_far_as_possible)
-        facts = {"fraction": fraction, **({"stopped_by": stopped_by} if stopped_by else {}), **self._map.compare(data)}
-        return Mesh._from(data, facts=facts, columns=self._mesh._columns)
+        data, fraction, maps, stopped_by = self._map.morph(points_array(wall, "wall"), as_far_as_possible, incremental)
+        facts = {"fraction": fraction, "maps": maps, **({"stopped_by": stopped_by} if stopped_by else {}), **self._map.compare(data)}
+        return Mesh._from(data, facts=facts, columns=self.mesh._columns)
 
     def morph_all(self, walls: Iterable[Any]) -> tuple[np.ndarray, list[str]]:
         """Returns the points of many shapes, (shapes, vertices, 2), and for each its error, which is empty where there is
@@ -62,12 +63,12 @@ class MorphMap:
         points, errors = [], []
         for wall in walls:
             try:
-                points.append(self._map.morph(points_array(wall, "wall"), False)[0].points())
+                points.append(self._map.morph(points_array(wall, "wall"), False, False)[0].points())
                 errors.append("")
             except MeshError as error:
-                points.append(np.full_like(self._mesh.points, np.nan))
+                points.append(np.full_like(self.mesh.points, np.nan))
                 errors.append(str(error))
-        return np.array(points).reshape(-1, *self._mesh.points.shape), errors
+        return np.array(points).reshape(-1, *self.mesh.points.shape), errors
 
     def positions(self, wall: Any) -> np.ndarray:
         """Returns the places of all vertices, (vertices, 2), whether cells turn over or not."""
@@ -83,7 +84,7 @@ class MorphMap:
 
 
 def morph(mesh: Mesh, to: Sections | None, transform: str | Sequence[str], displacements: Any,
-          as_far_as_possible: bool) -> Mesh:
+          as_far_as_possible: bool, incremental: bool) -> Mesh:
     """Does what Mesh.morph() says."""
     changes = [transform] if isinstance(transform, str) else list(transform)
     if (to is not None) + bool(changes) + (displacements is not None) != 1:
@@ -98,4 +99,4 @@ def morph(mesh: Mesh, to: Sections | None, transform: str | Sequence[str], displ
         if by.shape != moving.wall_points.shape:
             raise InputError(f"{len(by)} displacements for the {len(moving.wall)} wall vertices of the mesh")
         wall = moving.wall_points + by
-    return moving.morph(wall, as_far_as_possible=as_far_as_possible)
+    return moving.morph(wall, as_far_as_possible=as_far_as_possible, incremental=incremental)

@@ -18,6 +18,7 @@
 #include "app/commands.hpp"
 #include "app/format_help.hpp"
 #include "app/mesh_command_options.hpp"
+#include "app/morph_sequence.hpp"
 #include "app/progress.hpp"
 #include "app/report.hpp"
 #include "app/run_files.hpp"
@@ -32,6 +33,7 @@ namespace {
 struct MorphArguments {
     std::string mesh, mesh_format, displacements, output, report;
     std::vector<std::string> shapes, transformations;
+    SequenceArguments sequence;
     WriteOptions options;
     MorphOptions morph;
 };
@@ -52,24 +54,6 @@ std::vector<Point> wall_targets(const MorphMap& map, const MorphArguments& argum
     if (!arguments.displacements.empty()) return displaced_wall_points(map, arguments.displacements);
     if (arguments.shapes.empty()) return moved_wall_points(map, options.transformations);
     return wall_points_on(map, read_geometry(arguments.shapes, options));
-}
-
-Json morph_quality(const MorphQuality& quality) {
-    return {{"min_angle", quality.min_angle_deg},
-            {"mean_min_angle", quality.mean_min_angle_deg},
-            {"min_scaled_jacobian", quality.min_scaled_jacobian}};
-}
-
-Json morph_json(const MorphResult& result, const MorphReport& report) {
-    Json json{
-        {"fraction", result.fraction},
-        {"max_first_height_change", report.max_first_height_change},
-        {"max_first_height_change_at", {report.max_first_height_change_at.x, report.max_first_height_change_at.y}},
-        {"before", morph_quality(report.before)},
-        {"after", morph_quality(report.after)}};
-    if (result.stop)
-        json["stopped_by"] = {{"cell", result.stop->description}, {"at", {result.stop->at.x, result.stop->at.y}}};
-    return json;
 }
 
 std::string morph_summary(const MorphArguments& arguments, const MorphResult& result, const MorphReport& report) {
@@ -96,16 +80,8 @@ std::string morph_summary(const MorphArguments& arguments, const MorphResult& re
 /// Throws UsageError unless the arguments say in one way where the walls go.
 void require_one_way(const MorphArguments& arguments) {
     const bool by_shape = !arguments.shapes.empty() || !arguments.transformations.empty();
-    if (by_shape == !arguments.displacements.empty())
-        throw UsageError("give --to SHAPE..., --transform, or both, or else --displacements");
-}
-
-std::vector<RunFile> files_to_write(const MorphArguments& arguments) {
-    std::vector<RunFile> files;
-    for (const auto& file : output_files(arguments.output, arguments.options))
-        files.push_back({file, "option --output"});
-    if (!arguments.report.empty()) files.push_back({arguments.report, "option --report"});
-    return files;
+    if (by_shape + !arguments.displacements.empty() + !arguments.sequence.turns.empty() != 1)
+        throw UsageError("give --to SHAPE..., --transform, or both, or else --displacements or --sequence");
 }
 
 std::vector<RunFile> files_to_read(const MorphArguments& arguments) {
@@ -118,15 +94,36 @@ std::vector<RunFile> files_to_read(const MorphArguments& arguments) {
     return files;
 }
 
-void run_morph(const MorphArguments& arguments) {
-    require_one_way(arguments);
-    GeometryOptions geometry;
-    set_by_name(option_table<GeometryOptions>(), "transform", arguments.transformations, geometry);
+void require_files(const MorphArguments& arguments) {
     if (!is_case_to_morph(arguments.mesh)) require_format(arguments.mesh, arguments.mesh_format, "--input-format");
     require_format(arguments.output, arguments.options.format, "--format");
-    check_writable(arguments.output, arguments.options);
     if (!arguments.report.empty()) check_folder_writable(arguments.report);
-    const std::vector<RunFile> outputs = files_to_write(arguments);
+}
+
+/// Writes the meshes of all times.
+void run_sequence(const MorphArguments& arguments) {
+    require_files(arguments);
+    const MorphSequence sequence = plan_sequence(arguments.sequence, arguments.output, arguments.options);
+    std::vector<RunFile> outputs = sequence.outputs;
+    if (!arguments.report.empty()) outputs.push_back({arguments.report, "option --report"});
+    require_distinct(files_to_read(arguments), outputs);
+    const SignalGuard guard(outputs);
+    const Mesh reference = reference_mesh(arguments);
+    const MorphMap map(reference);
+    const Json report = write_sequence(map, sequence, arguments.morph);
+    if (!arguments.report.empty()) write_file(arguments.report, to_text(report));
+    print_summary(sequence_summary(input_name(arguments.mesh), report, arguments.output), outputs);
+}
+
+void run_morph(const MorphArguments& arguments) {
+    require_one_way(arguments);
+    if (!arguments.sequence.turns.empty()) return run_sequence(arguments);
+    GeometryOptions geometry;
+    set_by_name(option_table<GeometryOptions>(), "transform", arguments.transformations, geometry);
+    require_files(arguments);
+    check_writable(arguments.output, arguments.options);
+    std::vector<RunFile> outputs = files_of_output(arguments.output, arguments.options);
+    if (!arguments.report.empty()) outputs.push_back({arguments.report, "option --report"});
     require_distinct(files_to_read(arguments), outputs);
     const SignalGuard guard(outputs);
 
@@ -163,8 +160,28 @@ void add_morph_command(CLI::App& app) {
                      "CSV file with a line 'vertex,dx,dy' for each wall vertex that moves, numbered as --wall-data of "
                      "lamina mesh does")
         ->type_name("FILE");
+    command
+        ->add_option(
+            "--sequence", arguments->sequence.turns,
+            "bodies that turn as time goes on: ELEMENT:pitch:MEAN:AMPLITUDE:FREQUENCY[:X,Y] by mean + amplitude "
+            "sin(2 pi frequency time), or ELEMENT:deflect:DEG:DURATION[:X,Y] from rest to rest; degrees, nose up, "
+            "about the origin or X,Y; may be given several times. NEW is a case of OpenFOAM, or holds {step}")
+        ->type_name("TURN")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command
+        ->add_option("--until", arguments->sequence.until,
+                     "time at which the sequence ends; else the longest period or duration")
+        ->check(CLI::PositiveNumber)
+        ->type_name("TIME");
+    command->add_option("--steps", arguments->sequence.steps, "number of times of the sequence after the first one")
+        ->check(CLI::Range(1, 100'000))
+        ->capture_default_str()
+        ->type_name("N");
     command->add_flag("--as-far-as-possible", arguments->morph.as_far_as_possible,
                       "write a mesh that gets only a part of the way, since a cell would turn over beyond it");
+    command->add_flag("--incremental", arguments->morph.incremental,
+                      "where a cell would turn over, go on from a mesh half as far, in as many steps as it takes");
     command->add_option("-o,--output", arguments->output, "mesh file to write")->required()->type_name("NEW");
     command->add_option("--format", arguments->options.format, "format of NEW")->type_name(format_names());
     command->add_option("--report", arguments->report, "JSON file to write: the quality before and after")

@@ -1,6 +1,5 @@
 // lamina remesh: a mesh adapted to a metric.
 #include <cassert>
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
@@ -54,9 +53,7 @@ void remesh_file(const RemeshArguments& arguments) {
     check_writable(arguments.output, arguments.options);
     std::vector<RunFile> inputs = files_of_mesh(arguments.mesh, arguments.input_format);
     inputs.push_back({arguments.metric, "option --metric"});
-    std::vector<RunFile> outputs;
-    for (const std::filesystem::path& file : output_files(arguments.output, arguments.options))
-        outputs.push_back({file, "option --output"});
+    const std::vector<RunFile> outputs = files_of_output(arguments.output, arguments.options);
     require_distinct(inputs, outputs);
     const SignalGuard guard(outputs);
     const Mesh mesh = read_valid_mesh(arguments.mesh, arguments.input_format);

@@ -102,6 +102,12 @@ std::vector<RunFile> files_in(const fs::path& folder, const std::string& role) {
     return files;
 }
 
+std::vector<RunFile> files_of_output(const std::string& output, const WriteOptions& options) {
+    std::vector<RunFile> files;
+    for (const fs::path& file : output_files(output, options)) files.push_back({file, "option --output"});
+    return files;
+}
+
 std::vector<RunFile> files_of_mesh(const std::string& mesh, const std::string& format) {
     std::vector<RunFile> files{{mesh, "MESH"}};
     const std::string known = format.empty() && is_folder(mesh) ? "openfoam" : format;  // no other format is a folder

@@ -36,6 +36,9 @@ void require_format(const std::string& file, const std::string& format, const st
 /// Throws UsageError where parts are asked for that none of these mesh files has.
 void require_parts_taken(std::span<const std::string> files, const WriteOptions& options);
 
+/// Returns the files that write_mesh() makes of the option --output.
+std::vector<RunFile> files_of_output(const std::string& output, const WriteOptions& options);
+
 /// Returns the files in a folder; none where it is no folder.
 std::vector<RunFile> files_in(const std::filesystem::path& folder, const std::string& role);
 

@@ -17,6 +17,9 @@ struct SolverCaseFile {
     bool executable = false;     ///< whether it is a script to run
 };
 
+/// Writes a file of a case into its folder.
+void write_case_file(const SolverCaseFile& file, const std::filesystem::path& folder);
+
 /// Returns the files of a case without the mesh. They do not depend on the machine. Walls of the mesh are its markers
 /// of the kind wall, and its far field is all markers of that kind. Throws OptionError where the Reynolds number is
 /// missing, or the Mach number of a compressible flow is missing or out of range, MeshError where the mesh has no wall or

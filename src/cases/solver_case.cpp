@@ -255,6 +255,8 @@ Words words_of_run(const CaseFlow& flow) {
             {"MIDDLE_Y", fmt::format("{}", flow.moment_point.y)}};
 }
 
+}  // namespace
+
 void write_case_file(const SolverCaseFile& file, const fs::path& folder) {
     const fs::path path = folder / file.name;
     write_file(path, file.text);
@@ -264,8 +266,6 @@ void write_case_file(const SolverCaseFile& file, const fs::path& folder) {
     fs::permissions(path, all, fs::perm_options::add, failed);
     if (failed) throw IoError(path.string(), "cannot be made executable: " + failed.message());
 }
-
-}  // namespace
 
 std::vector<SolverCaseFile> solver_case_files(FlowSolver solver, const Mesh& mesh, const SolverConditions& conditions,
                                               const SolverCaseOptions& options) {

@@ -168,6 +168,11 @@ void write_openfoam(const MeshView& mesh, const std::filesystem::path& file, con
                     std::size_t parts);
 /// Returns the file beside the folder that says which part a cell belongs to, for decomposePar with the method `manual`.
 std::filesystem::path openfoam_parts_file(const std::filesystem::path& file);
+/// Writes the places of all vertices into the folder of a time: as points, and as the field `displacement` from their
+/// places in the mesh.
+void write_openfoam_time(const MeshView& reference, std::span<const Point> points, const std::filesystem::path& folder);
+/// Returns the names of both files.
+std::vector<std::filesystem::path> openfoam_time_files(const std::filesystem::path& folder);
 Mesh read_openfoam(const std::filesystem::path& file);
 /// A mesh, and the number of each of its cells in the files it was read from: triangles, then quads.
 struct NumberedCells {

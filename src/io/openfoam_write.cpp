@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -95,6 +96,22 @@ std::vector<Marker> markers_in_pairs(const MeshView& mesh) {
             markers[pair->second].edges[i] = mesh.markers[pair->second].edges[pair->edges[i].second];
         }
     return markers;
+}
+
+/// Writes vectors of the vertices in each plane, with the third components of the planes.
+void write_planes(std::ostream& out, std::span<const Point> points, const std::vector<double>& heights) {
+    std::vector<std::string> ends;
+    for (const double height : heights) ends.push_back(fmt::format("{})", height));
+    write_list(out, heights.size() * points.size(), [&](LineText& line, std::size_t i) {
+        line.tight("(") << points[i % points.size()] << ends[i / points.size()];
+    });
+}
+
+/// Returns the heights of the planes.
+std::vector<double> heights_of(const Extrusion& extrusion) {
+    std::vector<double> heights;
+    for (std::size_t k = 0; k < extrusion.planes(); ++k) heights.push_back(extrusion.height(k));
+    return heights;
 }
 
 class PolyMeshWriter {
@@ -237,11 +254,7 @@ private:
             });
             return;
         }
-        std::vector<std::string> heights;
-        for (std::size_t k = 0; k < extrusion_.planes(); ++k)
-            heights.push_back(fmt::format("{})", extrusion_.height(k)));
-        write_list(out, extrusion_.planes() * n,
-                   [&](LineText& line, std::size_t i) { line.tight("(") << mesh_.points[i % n] << heights[i / n]; });
+        write_planes(out, mesh_.points, heights_of(extrusion_));
     }
     void write_faces(std::ostream& out) const {
         write_list(out, all_faces(), [&](LineText& line, std::size_t f) {
@@ -441,6 +454,31 @@ void write_openfoam(const MeshView& mesh, const fs::path& file, const Extrusion&
     const PolyMeshWriter writer(boundary_alone, lines, file, extrusion);
     core::write_folder_atomically(poly_mesh_folder(file), [&](const fs::path& folder) { writer.write(folder); });
     if (parts > 1) write_parts(mesh, extrusion.cells, parts, openfoam_parts_file(file));
+}
+
+std::vector<fs::path> openfoam_time_files(const fs::path& folder) {
+    return {folder / "polyMesh" / "points", folder / "displacement"};
+}
+
+void write_openfoam_time(const MeshView& reference, std::span<const Point> points, const fs::path& folder) {
+    assert(points.size() == reference.points.size());
+    const std::vector<double> heights = heights_of({});
+    const std::vector<fs::path> files = openfoam_time_files(folder);
+    core::NewFolders folders;
+    for (const fs::path& file : files) folders.create_above(file);
+    core::write_stream_atomically(files[0], [&](std::ostream& out) {
+        out << foam_header("vectorField", "", (folder.filename() / "polyMesh").c_str(), "points");
+        write_planes(out, points, heights);
+    });
+    std::vector<Point> displacement;
+    for (std::size_t i = 0; i < points.size(); ++i) displacement.push_back(points[i] - reference.points[i]);
+    core::write_stream_atomically(files[1], [&](std::ostream& out) {
+        out << foam_header("pointVectorField", "", folder.filename().c_str(), "displacement")
+            << "dimensions      [0 1 0 0 0 0 0];\ninternalField   nonuniform List<vector>\n";
+        write_planes(out, displacement, std::vector<double>(heights.size(), 0));
+        out << ";\nboundaryField\n{\n    \".*\"\n    {\n        type            calculated;\n    }\n}\n";
+    });
+    folders.keep();
 }
 
 }  // namespace lamina::io

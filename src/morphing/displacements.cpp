@@ -12,26 +12,6 @@
 #include "core/text.hpp"
 #include "morphing/rays.hpp"
 
-namespace lamina::morphing {
-
-namespace {
-
-/// A line "vertex,dx,dy".
-struct WallDisplacement {
-    double vertex;
-    Point by;
-};
-
-WallDisplacement parse_displacement(const std::string& line) {
-    const std::vector<double> numbers = core::parse_numbers(line, ',');
-    if (numbers.size() != 3) throw UsageError("is not 'vertex,dx,dy'");
-    return {numbers[0], {numbers[1], numbers[2]}};
-}
-
-}  // namespace
-
-}  // namespace lamina::morphing
-
 namespace lamina {
 
 using namespace morphing;
@@ -49,18 +29,19 @@ std::vector<Point> displaced_wall_points(const MorphMap& map, const std::filesys
         if (!line.empty() && line.back() == '\r') line.pop_back();
         if (line.empty() || (n == 1 && line == "vertex,dx,dy")) continue;
         const auto fail = [&](const std::string& reason) { throw InputError({.file = name, .line = n}, reason); };
-        WallDisplacement displacement{};
+        std::vector<double> numbers;
         try {
-            displacement = parse_displacement(line);
-        } catch (const UsageError&) {
-            fail(core::concat("'", line, "' is not 'vertex,dx,dy'"));
+            numbers = core::parse_numbers(line, ',');
+        } catch (const UsageError& error) {
+            fail(error.what());
         }
-        const double vertex = displacement.vertex;
+        if (numbers.size() != 3) fail(core::concat("'", line, "' is not 'vertex,dx,dy'"));
+        const double vertex = numbers[0];
         if (!(vertex >= 0 && vertex < static_cast<double>(place.size())) || vertex != std::floor(vertex))
             fail(core::concat("the mesh has no vertex ", vertex));
         std::uint32_t& at = place[static_cast<std::size_t>(vertex)];
         if (at == no_ray) fail(core::concat("vertex ", vertex, " is on no wall, or has a line before"));
-        wall[at] = wall[at] + displacement.by;
+        wall[at] = wall[at] + Point{numbers[1], numbers[2]};
         at = no_ray;
     }
     return wall;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -13,6 +15,7 @@
 #include <lamina/error.hpp>
 
 #include "core/parallel.hpp"
+#include "mesh/adjacency.hpp"
 #include "mesh/cell_orientation.hpp"
 #include "mesh/cell_text.hpp"
 #include "morphing/wall_edges.hpp"
@@ -24,35 +27,32 @@ namespace {
 constexpr std::size_t no_cell = std::numeric_limits<std::size_t>::max();
 constexpr int halvings = 6;
 
-/// Returns whether a cell of the mesh is counter-clockwise with its vertices at these points. Exact.
-bool is_counter_clockwise(const Mesh& mesh, std::span<const Point> points, std::size_t cell) {
+/// Returns whether a cell is counter-clockwise with its vertices at these points. Exact.
+bool is_counter_clockwise(const mesh::CellEdges& cells, std::span<const Point> points, std::size_t cell) {
     Point p[4];
-    const bool is_triangle = cell < mesh.triangles.size();
-    const VertexId* const v = is_triangle ? mesh.triangles[cell].v : mesh.quads[cell - mesh.triangles.size()].v;
-    for (std::size_t i = 0; i < (is_triangle ? 3U : 4U); ++i) {
-        p[i] = points[v[i].index()];
+    const std::size_t corners = cells.corners(cell);
+    for (std::size_t i = 0; i < corners; ++i) {
+        p[i] = points[cells.corner(cell, i).index()];
         if (!std::isfinite(p[i].x) || !std::isfinite(p[i].y)) return false;
     }
-    return (is_triangle ? core::inline_orient2d(p[0], p[1], p[2]) : mesh::quad_orientation(p)) > 0;
+    return (corners == 3 ? core::inline_orient2d(p[0], p[1], p[2]) : mesh::quad_orientation(p)) > 0;
 }
 
 /// Returns the first cell that is not; no_cell where all are.
 std::size_t find_turned_cell(const Mesh& mesh, std::span<const Point> points) {
-    constexpr std::size_t grain = std::size_t{1} << 13;
-    const auto found = core::parallel_blocks(mesh.triangles.size() + mesh.quads.size(), grain,
-                                             [&](std::size_t begin, std::size_t end) {
-                                                 for (std::size_t cell = begin; cell < end; ++cell)
-                                                     if (!is_counter_clockwise(mesh, points, cell)) return cell;
-                                                 return no_cell;
-                                             });
+    const mesh::CellEdges cells(mesh);
+    const auto found =
+        core::parallel_blocks(cells.cells(), mesh::cells_per_block, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t cell = begin; cell < end; ++cell)
+                if (!is_counter_clockwise(cells, points, cell)) return cell;
+            return no_cell;
+        });
     return found.empty() ? no_cell : *std::min_element(found.begin(), found.end());
 }
 
 /// Describes a cell that turns over.
 MeshDefect stop_at(const Mesh& mesh, std::size_t cell) {
-    const VertexId v =
-        cell < mesh.triangles.size() ? mesh.triangles[cell].v[0] : mesh.quads[cell - mesh.triangles.size()].v[0];
-    return {mesh::cell_text(mesh, cell), mesh.points[v.index()]};
+    return {mesh::cell_text(mesh, cell), mesh.points[mesh::CellEdges(mesh).corner(cell, 0).index()]};
 }
 
 void require_wall(const MorphMap& map, std::span<const Point> wall) {
@@ -96,6 +96,40 @@ void find_largest_share(const MorphMap& map, std::span<const Point> wall, std::s
     result.stop = stop_at(map.reference(), cell);
 }
 
+/// Moves the walls as far as the map can.
+MorphResult move_by(const MorphMap& map, std::span<const Point> wall) {
+    MorphResult result{.points = map.positions(wall)};
+    const std::size_t turned = find_turned_cell(map.reference(), result.points);
+    if (turned != no_cell) find_largest_share(map, wall, turned, result);
+    return result;
+}
+
+/// Goes on by a new map of the mesh half as far as the last one got, until one gets to the end. A mesh at the end of what a
+/// map can do has cells that nearly turn over, which would stop the next map. `result` is that of the first map.
+///
+/// A slat of a high-lift section moved across its slot by 2 % of the chord, up or down, takes 2 and 3 maps where one goes
+/// 58 % and 66 % of the way; a flap turned by 10 degrees, whose slot closes to 44 %, takes 6 for 66 %. A map that gets
+/// less than a quarter of what is left meets walls that do.
+void go_on_by_further_maps(const MorphMap& first, std::span<const Point> wall, MorphResult& result) {
+    constexpr double least_reach = 0.25, share_of_reach = 0.5;
+    const MorphMap* map = &first;
+    std::unique_ptr<const Mesh> mesh;
+    std::optional<MorphMap> further;
+    double made = 0, reach = result.fraction;
+    while (result.stop && reach >= least_reach) {
+        auto next = std::make_unique<Mesh>(first.reference());
+        next->points = map->positions(part_of_way(map->wall_points(), wall, share_of_reach * reach));
+        if (find_turned_cell(*next, next->points) != no_cell) return;
+        made += (1 - made) * share_of_reach * reach;
+        further.emplace(*next);
+        mesh = std::move(next);
+        map = &*further;
+        MorphResult rest = move_by(*map, wall);
+        reach = rest.fraction;
+        result = {std::move(rest.points), made + (1 - made) * reach, std::move(rest.stop), result.maps + 1};
+    }
+}
+
 }  // namespace
 
 }  // namespace lamina::morphing
@@ -106,10 +140,9 @@ using namespace morphing;
 
 MorphResult morph(const MorphMap& map, std::span<const Point> wall, const MorphOptions& options) {
     require_wall(map, wall);
-    MorphResult result{.points = map.positions(wall)};
-    const std::size_t turned = find_turned_cell(map.reference(), result.points);
-    if (turned == no_cell) return result;
-    find_largest_share(map, wall, turned, result);
+    MorphResult result = move_by(map, wall);
+    if (options.incremental) go_on_by_further_maps(map, wall, result);
+    if (!result.stop) return result;
     if (!options.as_far_as_possible || result.fraction == 0)
         throw MeshError(
             fmt::format("the motion can be made to {:.3g} % alone: beyond that, {} at ({:.6g}, {:.6g}) turns "

@@ -1,9 +1,12 @@
 #include <lamina/morph.hpp>
 
 #include <algorithm>
-#include <cassert>
+#include <cstddef>
 #include <utility>
 
+#include <lamina/error.hpp>
+
+#include "core/text.hpp"
 #include "morphing/complex.hpp"
 #include "morphing/motion_field.hpp"
 #include "morphing/rays.hpp"
@@ -59,6 +62,20 @@ private:
     }
 };
 
+namespace morphing {
+
+namespace {
+
+/// Throws InputError unless there are as many points as vertices of this kind.
+void require_points(std::size_t given, std::size_t needed, const char* kind) {
+    if (given != needed)
+        throw InputError({}, core::concat(given, " points for the ", needed, " ", kind, " vertices of the mesh"));
+}
+
+}  // namespace
+
+}  // namespace morphing
+
 MorphMap::MorphMap(const Mesh& reference) : parts_(std::make_unique<Parts>(reference)) {}
 MorphMap::MorphMap(MorphMap&&) noexcept = default;
 MorphMap& MorphMap::operator=(MorphMap&&) noexcept = default;
@@ -69,6 +86,7 @@ const WallVertices& MorphMap::walls() const { return parts_->walls; }
 const std::vector<Point>& MorphMap::wall_points() const { return parts_->wall; }
 
 std::vector<Point> MorphMap::positions(std::span<const Point> wall) const {
+    require_points(wall.size(), parts_->wall.size(), "wall");
     std::vector<Point> points = parts_->mesh.points;
     const std::vector<Point> displacement = parts_->displacements(parts_->turns.motions(wall));
     for (std::size_t v = 0; v < points.size(); ++v)
@@ -78,11 +96,13 @@ std::vector<Point> MorphMap::positions(std::span<const Point> wall) const {
 }
 
 std::vector<Point> MorphMap::jacobian_vector(std::span<const Point> wall, std::span<const Point> direction) const {
+    for (const std::size_t given : {wall.size(), direction.size()}) require_points(given, parts_->wall.size(), "wall");
     return parts_->displacements(parts_->turns.derivative(wall, direction));
 }
 
 std::vector<Point> MorphMap::vector_jacobian(std::span<const Point> wall, std::span<const Point> gradient) const {
-    assert(gradient.size() == parts_->mesh.points.size());
+    require_points(wall.size(), parts_->wall.size(), "wall");
+    require_points(gradient.size(), parts_->mesh.points.size(), "moved");
     std::vector<Motion> by_motion(parts_->rays.rays.size(), Motion{});
     for (std::size_t v = 0; v < gradient.size(); ++v) {
         if (parts_->rays.of_vertex[v] == no_ray) continue;

@@ -6,7 +6,11 @@
 #include <cmath>
 #include <numbers>
 
+#include <lamina/error.hpp>
+
 #include "core/parallel.hpp"
+#include "core/text.hpp"
+#include "mesh/adjacency.hpp"
 #include "mesh/quality.hpp"
 
 namespace lamina::morphing {
@@ -29,35 +33,31 @@ double smallest_sine(std::span<const Point> p) {
 }
 
 MorphQuality measure_quality(const Mesh& mesh, std::span<const Point> points) {
-    const std::size_t triangles = mesh.triangles.size(), cells = triangles + mesh.quads.size();
-    const auto at = [&](VertexId v) { return points[v.index()]; };
+    const mesh::CellEdges cells(mesh);
     const auto measure = [&](std::size_t begin, std::size_t end) {
         QualityPart part;
         for (std::size_t cell = begin; cell < end; ++cell) {
-            double angle = 0;
-            if (cell < triangles) {
-                const auto& v = mesh.triangles[cell].v;
-                const std::array p{at(v[0]), at(v[1]), at(v[2])};
-                angle = core::measure_triangle(p[0], p[1], p[2]).min_angle_deg;
-                part.min_sine = std::min(part.min_sine, smallest_sine(p) / (0.5 * std::numbers::sqrt3));
-            } else {
-                const auto& v = mesh.quads[cell - triangles].v;
-                const std::array p{at(v[0]), at(v[1]), at(v[2]), at(v[3])};
-                angle = mesh::measure_quad(p[0], p[1], p[2], p[3]).min_angle_deg;
-                part.min_sine = std::min(part.min_sine, smallest_sine(p));
-            }
+            std::array<Point, 4> corners;
+            const std::size_t n = cells.corners(cell);
+            for (std::size_t i = 0; i < n; ++i) corners[i] = points[cells.corner(cell, i).index()];
+            const auto& [a, b, c, d] = corners;
+            const double angle =
+                n == 3 ? core::measure_triangle(a, b, c).min_angle_deg : mesh::measure_quad(a, b, c, d).min_angle_deg;
+            const double sine_of_ideal = n == 3 ? 0.5 * std::numbers::sqrt3 : 1;
+            part.min_sine = std::min(part.min_sine, smallest_sine(std::span(corners).first(n)) / sine_of_ideal);
             part.min_angle_deg = std::min(part.min_angle_deg, angle);
             part.angle_sum_deg += angle;
         }
         return part;
     };
     QualityPart sum;
-    for (const QualityPart& part : core::parallel_blocks(cells, std::size_t{1} << 13, measure)) {
+    for (const QualityPart& part : core::parallel_blocks(cells.cells(), mesh::cells_per_block, measure)) {
         sum.min_angle_deg = std::min(sum.min_angle_deg, part.min_angle_deg);
         sum.angle_sum_deg += part.angle_sum_deg;
         sum.min_sine = std::min(sum.min_sine, part.min_sine);
     }
-    return {sum.min_angle_deg, sum.angle_sum_deg / static_cast<double>(std::max<std::size_t>(cells, 1)), sum.min_sine};
+    return {sum.min_angle_deg, sum.angle_sum_deg / static_cast<double>(std::max<std::size_t>(cells.cells(), 1)),
+            sum.min_sine};
 }
 
 }  // namespace
@@ -68,6 +68,9 @@ namespace lamina {
 
 MorphReport compare_morphed(const MorphMap& map, std::span<const Point> points) {
     const Mesh& reference = map.reference();
+    if (points.size() != reference.points.size())
+        throw InputError(
+            {}, core::concat(points.size(), " points for the ", reference.points.size(), " vertices of the mesh"));
     MorphReport report{.before = morphing::measure_quality(reference, reference.points),
                        .after = morphing::measure_quality(reference, points)};
     Mesh morphed = reference;

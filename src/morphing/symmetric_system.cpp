@@ -8,6 +8,10 @@
 
 #include <Eigen/SparseCholesky>
 
+#include <lamina/error.hpp>
+
+#include "core/text.hpp"
+
 namespace lamina::morphing {
 
 namespace {
@@ -34,7 +38,9 @@ Matrix matrix_of(std::size_t n, std::vector<Entry> entries) {
 }  // namespace
 
 struct SymmetricSystem::Factors : Eigen::SimplicialLDLT<Matrix, Eigen::Lower, Eigen::AMDOrdering<int>> {
-    explicit Factors(const Matrix& matrix) : SimplicialLDLT(matrix) { assert(info() == Eigen::Success); }
+    explicit Factors(const Matrix& matrix) : SimplicialLDLT(matrix) {
+        if (info() != Eigen::Success) throw MeshError("cells of the mesh are too flat for a field to be found on it");
+    }
 
     /// The entries of L below its diagonal of ones, by columns; the diagonal of D; and the row of each unknown in both.
     const Matrix& lower() const { return m_matrix; }
@@ -48,6 +54,11 @@ SymmetricSystem& SymmetricSystem::operator=(SymmetricSystem&&) noexcept = defaul
 SymmetricSystem::~SymmetricSystem() = default;
 
 SymmetricSystem::SymmetricSystem(std::size_t n, std::vector<Entry> entries) {
+    // Factors of fields on meshes have 52 entries a row at 78,000 rows, and more as the logarithm of the rows: 2^24 rows keep
+    // them below the 2^31 that Eigen's numbers hold.
+    constexpr std::size_t max_rows = std::size_t{1} << 24;
+    if (n > max_rows)
+        throw MeshError(core::concat("a mesh to morph has at most ", max_rows, " vertices beyond its rays, not ", n));
     if (n > 0) factors_ = std::make_unique<const Factors>(matrix_of(n, std::move(entries)));
 }
 

@@ -1,6 +1,9 @@
 // lamina morph: the same cells round other shapes.
 #include <gtest/gtest.h>
 
+#include <cstdio>
+#include <filesystem>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -64,6 +67,71 @@ TEST(MorphCommand, MovesByDisplacements) {
         expect_refused(folder, {"morph", "mesh.vtu", "--displacements", "moves.csv", "-o", "other.vtu"}, bad_input,
                        said);
     }
+}
+
+TEST(MorphCommand, WritesSequences) {
+    const TemporaryFolder folder;
+    make_mesh_to_morph(folder);
+    const ProgramRun run = run_lamina(folder, {"morph", "mesh.vtu", "--sequence", "airfoil:pitch:2:5:0.5:0.25,0",
+                                               "--steps", "10", "-o", "at_{step}.vtu", "--report", "report.json"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_NE(run.out.find("moved to 11 times, up to 2\n"), std::string::npos) << run.out;
+    for (const char* file : {"at_00.vtu", "at_03.vtu", "at_10.vtu"}) expect_same_cells(folder, file);
+    const auto report = nlohmann::json::parse(folder.read("report.json"));
+    ASSERT_EQ(report.size(), 11U);
+    EXPECT_EQ(report[5]["time"], 1);
+    EXPECT_LT(report[5]["max_first_height_change"], 0.01);
+    const ProgramRun turned =
+        run_lamina(folder, {"morph", "mesh.vtu", "--transform", "airfoil:rotate:-2:0.25,0", "-o", "turned.vtu"});
+    ASSERT_EQ(turned.exit_code, 0) << turned.err;
+    EXPECT_EQ(read_mesh(folder / "at_00.vtu").points, read_mesh(folder / "turned.vtu").points);
+}
+
+TEST(MorphCommand, WritesMovingCasesOfOpenFoam) {
+    const TemporaryFolder folder;
+    make_mesh_to_morph(folder);
+    const ProgramRun run = run_lamina(folder, {"morph", "mesh.vtu", "--sequence", "airfoil:deflect:5:2:0.25,0",
+                                               "--until", "3", "--steps", "4", "-o", "moving"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    for (const char* file : {"Allrun", "motion/dynamicMeshDict", "motion/fvSolution", "motion/fvSolution.unsteady",
+                             "motion/pointDisplacement", "0/displacement", "1.5/polyMesh/points", "3/displacement"})
+        EXPECT_TRUE(std::filesystem::exists(folder / "moving" / file)) << file;
+    const Mesh before = read_mesh(folder / "moving");
+    const ProgramRun turned =
+        run_lamina(folder, {"morph", "mesh.vtu", "--transform", "airfoil:rotate:-5:0.25,0", "-o", "turned.vtu"});
+    ASSERT_EQ(turned.exit_code, 0) << turned.err;
+    std::filesystem::copy_file(folder / "moving/3/polyMesh/points", folder / "moving/constant/polyMesh/points",
+                               std::filesystem::copy_options::overwrite_existing);
+    const Mesh after = read_mesh(folder / "moving"), expected = read_mesh(folder / "turned.vtu");
+    EXPECT_EQ(after.points, expected.points);
+    // The displacements, of which each vertex has one on either side.
+    std::istringstream text(folder.read("moving/3/displacement"));
+    std::string line;
+    while (std::getline(text, line) && line != "(") {
+    }
+    for (int side = 0; side < 2; ++side)
+        for (std::size_t i = 0; i < before.points.size(); ++i) {
+            ASSERT_TRUE(std::getline(text, line));
+            Point by;
+            ASSERT_EQ(std::sscanf(line.c_str(), "(%lf %lf 0)", &by.x, &by.y), 2);
+            EXPECT_EQ(by, after.points[i] - before.points[i]);
+        }
+}
+
+TEST(MorphCommand, RefusesSequencesThatItCannotWrite) {
+    const TemporaryFolder folder;
+    make_mesh_to_morph(folder);
+    const auto refused = [&](const std::string& turn, const std::string& output, int exit_code,
+                             const std::string& said) {
+        expect_refused(folder, {"morph", "mesh.vtu", "--sequence", turn, "--steps", "2", "-o", output}, exit_code,
+                       said);
+    };
+    refused("airfoil:pitch:0:5:1", "one.vtu", usage, "{step}");
+    refused("airfoil:pitch:0:5", "{step}.vtu", usage, "option --sequence: a turn in time is");
+    refused("flap:pitch:0:5:1", "{step}.vtu", usage, "flap");
+    refused("airfoil:deflect:170:1", "{step}.vtu", mesh_failed, "at time 1: the motion can be made to");
+    expect_refused(folder, {"morph", "mesh.vtu", "--sequence", "all:pitch:0:5:1", "--to", "naca:0012", "-o", "new.vtu"},
+                   usage, "give --to");
 }
 
 TEST(MorphCommand, NamesTheCellThatStopsIt) {

@@ -168,6 +168,39 @@ TEST(Morph, StopsBeforeACellTurnsOver) {
     ASSERT_TRUE(result.stop.has_value());
 }
 
+TEST(Morph, GoesOnByFurtherMaps) {
+    const Mesh mesh = mesh_with_slot();
+    const MorphMap map(mesh);
+    const std::vector<Point> wall = moved_wall_points(map, std::vector{parse_transformation("flap:rotate:20:1.3,0")});
+    EXPECT_THROW(morph(map, wall), MeshError);
+    const MorphResult result = morph(map, wall, {.incremental = true});
+    EXPECT_EQ(result.fraction, 1);
+    EXPECT_GT(result.maps, 1);
+    expect_valid(map, result.points);
+    for (std::size_t i = 0; i < wall.size(); ++i) EXPECT_EQ(result.points[map.walls().vertex[i].index()], wall[i]);
+    // Where bodies meet no number of maps gets through.
+    const std::vector<Point> into = moved_wall_points(map, std::vector{parse_transformation("flap:shift:-0.2,0.03")});
+    EXPECT_THROW(morph(map, into, {.incremental = true}), MeshError);
+    const MorphResult part = morph(map, into, {.as_far_as_possible = true, .incremental = true});
+    EXPECT_LT(part.fraction, 1);
+    expect_valid(map, part.points);
+    // One map is enough for small motions.
+    const std::vector<Point> near = moved_wall_points(map, std::vector{parse_transformation("flap:rotate:2:1.3,0")});
+    EXPECT_EQ(morph(map, near, {.incremental = true}).points, map.positions(near));
+}
+
+TEST(Morph, RefusesOtherNumbersOfPoints) {
+    const Mesh mesh = mesh_to_morph();
+    const MorphMap map(mesh);
+    const std::vector<Point> wall = map.wall_points(), less(wall.begin() + 1, wall.end());
+    EXPECT_THROW(map.positions(less), InputError);
+    EXPECT_THROW(map.jacobian_vector(less, wall), InputError);
+    EXPECT_THROW(map.jacobian_vector(wall, less), InputError);
+    EXPECT_THROW(map.vector_jacobian(wall, wall), InputError);
+    EXPECT_THROW(map.vector_jacobian(less, mesh.points), InputError);
+    EXPECT_THROW(compare_morphed(map, wall), InputError);
+}
+
 TEST(Morph, RefusesWallsThatAreNone) {
     const Mesh mesh = mesh_to_morph();
     const MorphMap map(mesh);

@@ -1,5 +1,8 @@
 """Meshes moved to other shapes, and the derivative of the places of their vertices."""
 
+import runpy
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -66,6 +69,14 @@ def test_motions_that_end(reference, moving):
     assert morphed.quality().valid
 
 
+def test_motions_in_further_steps(moving):
+    assert moving.morph(moving.walls_on("naca:0013:200"), incremental=True).facts["maps"] == 1
+    far = moving.wall_points + [9.0, 0.0]  # nearly at the far field
+    morphed = moving.morph(far, incremental=True)
+    assert morphed.facts["maps"] > 1 and morphed.facts["fraction"] == 1 and morphed.quality().valid
+    assert np.array_equal(morphed.points[moving.wall], far)
+
+
 def test_bad_input(reference, moving):
     with pytest.raises(lamina.UsageError):
         reference.morph()
@@ -84,3 +95,61 @@ def test_bad_input(reference, moving):
         reference.morph(displacements=np.zeros((3, 2)))
     with pytest.raises(lamina.InputError):
         moving.vector_jacobian(moving.wall_points, np.zeros((3, 2)))
+
+
+def richardson(function, at, direction, step):
+    """Returns the derivative by central differences whose error is of the sixth order in the step."""
+    def central(h):
+        return (function(at + h * direction) - function(at - h * direction)) / (2 * h)
+
+    return (64 * central(step / 4) - 20 * central(step / 2) + central(step)) / 45
+
+
+@pytest.mark.parametrize("name, step", [("cst", 1e-2), ("hicks-henne", 1e-2), ("naca", 4e-3), ("hinge", 1)])
+def test_derivative_by_parameters(moving, reference, name, step):
+    shape = {"cst": lambda: lamina.cst_shape(moving, 3), "hicks-henne": lambda: lamina.hicks_henne_shape(moving, [0.3, 0.6]),
+             "naca": lambda: lamina.naca_shape(moving), "hinge": lambda: lamina.hinge_shape(moving, (0.25, 0))}[name]()
+    rng = np.random.default_rng(2)
+    at = shape.initial + 0.3 * step * rng.normal(size=shape.initial.shape)
+    for _ in range(3):
+        direction = rng.normal(size=at.shape)
+        exact = shape.jacobian_vector(at, direction)
+        # The place of the camber's maximum is a kink for vertices near it.
+        if name == "naca":
+            direction[2] = 0
+            exact = shape.jacobian_vector(at, direction)
+        assert np.abs(exact - richardson(shape.positions, at, direction, step)).max() < 1e-8 * np.abs(exact).max()
+        gradient = rng.normal(size=reference.points.shape)
+        by = shape.vector_jacobian(at, gradient)
+        scale = np.linalg.norm(gradient) * np.linalg.norm(exact)
+        assert abs(np.sum(gradient * exact) - by @ direction) < 1e-12 * scale
+
+
+def test_shapes_by_parameters(moving, reference):
+    for shape in (lamina.cst_shape(moving), lamina.hicks_henne_shape(moving, [0.2, 0.5]),
+                  lamina.hinge_shape(moving, (0.25, 0))):
+        assert np.array_equal(shape.wall(shape.initial), moving.wall_points)
+    sections = lamina.naca_shape(moving)
+    assert np.abs(sections.wall([0.12, 0, 0.4]) - moving.wall_points).max() < 3e-4  # the wall is a spline
+    line = sections.wall([0.12, 0.02, 0.4]) - sections.wall([0.12, 0, 0.4])
+    assert line[:, 1].max() == pytest.approx(0.02, abs=1e-4) and line[0, 1] == pytest.approx(0, abs=1e-12)
+    assert np.allclose(lamina.hinge_shape(moving, (0.25, 0)).wall([10]), moving.walls_moved("all:rotate:-10:0.25,0"))
+    upper = lamina.cst_shape(moving, 2).derivative(np.zeros(6))[:, 1, :3]
+    assert np.all((upper > 0).any(axis=1) == (moving.wall_points[:, 1] > 1e-9))
+    for bad in (lambda: lamina.cst_shape(moving, body=1), lambda: lamina.hicks_henne_shape(moving, [1.5]),
+                lambda: sections.wall([0.12])):
+        with pytest.raises(lamina.InputError):
+            bad()
+
+
+def test_example_in_torch(moving, reference):
+    torch = pytest.importorskip("torch")
+    example = runpy.run_path(str(Path(__file__).parents[2] / "examples/python/morphing_in_torch.py"))
+    shape = lamina.cst_shape(moving, 2)
+    parameters = torch.full((6,), 0.001, dtype=torch.float64, requires_grad=True)
+    example["Morph"].apply(parameters, shape)[:, 1].sum().backward()
+    gradient = shape.vector_jacobian(np.full(6, 0.001), np.tile([0.0, 1.0], (len(reference.points), 1)))
+    assert np.array_equal(parameters.grad.numpy(), gradient)
+    pytest.importorskip("torch_geometric")
+    graphs = example["graphs"](moving, ["naca:0013:200", "naca:0011:200"])
+    assert len(graphs) == 2 and graphs[0].pos.shape == (len(reference.points), 2)
