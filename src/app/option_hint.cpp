@@ -155,7 +155,6 @@ constexpr OtherWord mesh_words[] = {
     {"filetype", "format"},
     {"wakelength", "wake"},
     {"wakeangle", "wake"},
-    {"cells", "max-triangles"},
     {"ncells", "max-triangles"},
     {"elements", "max-triangles"},
     {"cgrid", "", no_structured_grids},

@@ -53,7 +53,6 @@ TEST(Hints, OptionsOfMeshUnderOtherNames) {
         {"--seed", "equal inputs give equal meshes"},
         {"--output-format", "did you mean --format?"},
         {"--wake-length", "did you mean --wake?"},
-        {"--cells", "did you mean --max-triangles?"},
         {"--c-grid", "--layer-topology quads leaves them whole"},
         {"--unstructured", "all cells beyond the layer are triangles"},
     };
