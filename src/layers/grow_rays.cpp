@@ -202,8 +202,6 @@ RaySet rays_of(const Walls& walls, std::span<const DividedWake> wakes, const Lay
 /// whether there were any.
 template <class Share>
 bool lower_first_layers(Rays& rays, Share share) {
-    // Below this share of what is wanted a wall is bare: cells would be thinner than anything else on it.
-    constexpr double least_opening = 1e-3;
     bool changed = false;
     for (std::size_t i = 0; i < rays.set.lines.size(); ++i) {
         RayLine& ray = rays.set.lines[i];

@@ -14,15 +14,12 @@
 #include "core/parallel.hpp"
 #include "core/segments.hpp"
 #include "layers/layered_rays.hpp"
+#include "layers/parameters.hpp"
 #include "layers/stages.hpp"
 
 namespace lamina::layers {
 
 namespace {
-
-/// A circle holds a wall that comes nearer to its middle than this share of its radius. The slack is for the edges at
-/// the ray's own origin, which dip into the circle where the wall is concave.
-constexpr double inner_share = 0.95;
 
 /// Returns, for each ray, whether it is in the open: whether the circle that touches the wall at its origin, open_space
 /// full heights in diameter, holds no wall. An empty circle measures free space in slots, at corners and along tight

@@ -3,9 +3,16 @@
 // Tolerances of rounding and numbers of steps stand where they are used.
 #pragma once
 
+#include <cstddef>
 #include <numbers>
 
 namespace lamina::layers {
+
+// Everywhere.
+
+/// Lengths are alike up to this ratio: an edge and its target before it is divided, distances from the corner of a cleft, and
+/// first heights from vertex to vertex where they are given point by point.
+inline constexpr double alike = 1.1;
 
 // Room.
 
@@ -60,11 +67,12 @@ inline constexpr double largest_layer_angle_deg = 150;
 /// the cells beside a ray.
 inline constexpr double largest_sharp_deg = 2 * (180 - largest_layer_angle_deg);
 
-/// First heights along a wall that are given point by point differ by this factor at most from vertex to vertex.
-inline constexpr double max_first_height_ratio = 1.1;
-
 /// First heights that differ by less from the one wanted stay as they are.
 inline constexpr double kept_difference = 0.009;
+
+/// Walls without room get first heights down to this share of what is wanted. Below it a wall is bare: cells would be thinner
+/// than anything else on it.
+inline constexpr double least_opening = 1e-3;
 
 /// The turning of a wall, in degrees, up to which the ray of a vertex is not shifted. It leans no farther then than its first height
 /// allows (kept_difference). With 0, triangles beyond the layers of a slit of 3 degrees miss their bound.
@@ -95,7 +103,7 @@ inline constexpr double max_spread = 2;
 inline constexpr double max_tallness = 1.5, max_layers_beyond_isotropy = 20;
 
 /// The slope with which the front falls from a fan on both sides.
-inline constexpr double slope_beside_fans = 0.1;
+inline constexpr double slope_beside_fans = 0.5 * max_front_slope;
 
 /// Largest ratio of the last spacings of neighbouring rays. The ratio of their heights is smaller still.
 inline constexpr double max_neighbour_ratio = 1.25;
@@ -108,21 +116,13 @@ inline constexpr double cost_of_distance = 0.05;
 
 /// Last layers become this many times as high as if their cells had the area of squares on the front's edges: half of
 /// such a cell has the area of the triangle beyond. They become the second number times as high at least, for 0.6 times
-/// the area.
+/// the area; beside changes of the number of layers the first one, since fronts rise there by up to a quarter of the width
+/// of a column, which is less than a third of such a cell.
 inline constexpr double wanted_tallness = 0.91, least_tallness = 0.54;
 
 /// Rays lean along the front's edges by so much at most, as the sine between them; farther ones count as if they did.
 /// Columns of quadrilaterals count as upright.
 inline constexpr double least_sine = 0.5, sine_of_upright = 1;
-
-/// Last layers become at least this many times as high as wide beside changes of the number of layers. Fronts rise there by up to
-/// a quarter of the width of a column, which is less than a third of such a cell. Those of narrow columns near them become no
-/// higher than wide for it.
-inline constexpr double even_tallness = 0.86;
-
-/// Rows rise by this much per unit of distance at most where the last spacings of neighbouring columns are changed by different
-/// ratios. Points move by up to the second number of the part that changes for each unit of the ratio's logarithm.
-inline constexpr double most_rise = 0.15, most_moved = 0.17;
 
 /// Last layers become no higher than this share of the part that changes: the layers below would be far lower. Columns of
 /// which they are higher, with fewer than three layers in this part, stay as they are.
@@ -133,34 +133,35 @@ inline constexpr double max_end_ratio = 2.0;
 
 // Border.
 
-/// An edge may be this many times as long as its target before it is divided.
-inline constexpr double target_slack = 1.1;
-
 /// Gaps narrower than this share of an edge do not divide it further.
 inline constexpr double min_gap_share = 1.0 / 128;
 
 /// Targets are constant on intervals of an edge that are this share of the target long.
-inline constexpr double interval_share = 0.25;
+inline constexpr double interval_share = 0.5;
+
+/// Edges are divided for the sake of the ratio into at most this many times the parts that the target needs.
+inline constexpr std::size_t max_refinement = 6;
 
 /// The top of a cell of the grid stays whole up to this many times its target: up to where its halves would be as much too
 /// short as it is too long. A point on the top of a flat cell makes an angle near 180 degrees, and halves of the tops of high
 /// ones are farther in area from the triangles beyond. Walls that are kept have no other way to become finer than their borders.
 inline constexpr double whole_top = std::numbers::sqrt2;
 
+/// Walls below borders that would be divided are asked for spacings this much finer than need be, for walls whose whole numbers of
+/// edges differ from those asked for.
+inline constexpr double spacing_margin = 0.97;
+
 /// A cleft ends where the gap between the fronts is this many times as wide as their edges are long.
 inline constexpr double open_gap = 2.0;
-
-/// Distances from the corner count as equal up to this ratio.
-inline constexpr double equal_distance_ratio = 1.1;
 
 // Wakes.
 
 /// Ratio of the lengths of successive edges of a wake, and the longest edge as a share of the line.
 inline constexpr double wake_edge_ratio = 1.07, max_wake_edge_share = 0.015;
 
-/// From one vertex of a wake to the next the first height grows by these shares, at its begin and at its end. Rows of
-/// cells rise with it: by six times as much where layers end at isotropy, as a share of the edge's length.
-inline constexpr double first_wake_opening = 0.05, last_wake_opening = 0.12;
+/// From one vertex of a wake to the next the first height grows by this share. Rows of cells rise with it: by six times as
+/// much where layers end at isotropy, as a share of the edge's length.
+inline constexpr double wake_opening = 0.08;
 
 /// The first height along a wake whose layers go on beyond isotropy grows by this share over the length of their height, since
 /// rows rise much more there.
@@ -184,6 +185,10 @@ inline constexpr double outermost_core_cell = 2, core_cell_ratio = 1.4;
 /// The boundary layers of two opposing walls, and triangles between them, fit into a gap that is this many times as
 /// wide as one of the two is high.
 inline constexpr double open_space = 3;
+
+/// A circle holds a wall that comes nearer to its middle than this share of its radius. The slack is for the edges at the
+/// ray's own origin, which dip into the circle where the wall is concave.
+inline constexpr double inner_share = 0.95;
 
 /// Neighbouring columns end evenly where their ends differ in height by at most this share of a last cell.
 inline constexpr double even_border_step = 1.0 / 3;

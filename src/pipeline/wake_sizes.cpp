@@ -15,8 +15,8 @@
 #include "core/bounding_box.hpp"
 #include "core/box_tree.hpp"
 #include "layers/border/close_border.hpp"
-#include "layers/border/divide_borders.hpp"
 #include "layers/layered_rays.hpp"
+#include "layers/parameters.hpp"
 #include "layers/stages.hpp"
 
 namespace lamina::pipeline {
@@ -28,7 +28,7 @@ namespace {
 constexpr double least_share_of_height = 0.64;
 /// A top has no more parts than are asked for if sizes are this many times as long as the parts: they are divided by it
 /// where borders are (TargetLength), and so is their growth.
-constexpr double size_over_part = layers::target_slack;
+constexpr double size_over_part = layers::alike;
 /// A top may have any number of parts beyond this.
 constexpr double most_parts = 100;
 

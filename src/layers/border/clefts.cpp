@@ -76,8 +76,8 @@ private:
         const Point corner = corner_after[corner_after.size() / 2];
         const double to_first = distance(corner, rays_.tip(end.first - 1)),
                      to_last = distance(corner, rays_.tip(end.last + 1));
-        if (to_first <= equal_distance_ratio * to_last) --end.first;
-        if (to_last <= equal_distance_ratio * to_first) ++end.last;
+        if (to_first <= alike * to_last) --end.first;
+        if (to_last <= alike * to_first) ++end.last;
         return true;
     }
 

@@ -424,7 +424,7 @@ std::vector<std::vector<double>> whole_tops(const Rays& grown, const FrontCorner
             const FrontCorner &a = corners[e][k], &b = corners[e][(k + 1) % corners[e].size()];
             const bool has_cell = a.layers > 0 && b.layers > 0 && !a.cleft;
             const bool whole = uses("whole_tops") && of_grid && grown.resampled[e] && has_cell;
-            whole_up_to[e].push_back(whole ? whole_top : target_slack);
+            whole_up_to[e].push_back(whole ? whole_top : alike);
         }
     return whole_up_to;
 }
@@ -459,7 +459,6 @@ bool is_above_wall(const Rays& rays, const std::vector<FrontCorner>& corners, st
 /// Where rays converge, edges of the front are shorter than those of the wall below. If they requested their own
 /// lengths, the wall beside would become finer for them, then the wall below, and then these edges themselves.
 std::vector<geometry::WallSpacing> wall_spacings(const Rays& rays, const BorderOptions& options) {
-    constexpr double margin = 0.97;  // for walls whose whole numbers of edges differ from those asked for
     validate(options);
     const LayeredRays layered = layered_rays(rays);
     const FrontCorners corners = front_corners(rays);
@@ -475,8 +474,9 @@ std::vector<geometry::WallSpacing> wall_spacings(const Rays& rays, const BorderO
         for (std::size_t k = 0; k < shown; ++k) {
             if (corners[e][k].cleft || !is_above_wall(rays, corners[e], k)) continue;
             const WallPart wall = wall_below(rays, corners[e], k);
-            const double excess = division.excess[e][k] / target_slack;
-            if (wall.a != wall.b && excess > 1) spacings.push_back({e, wall.a, wall.b, margin * wall.edge / excess});
+            const double excess = division.excess[e][k] / alike;
+            if (wall.a != wall.b && excess > 1)
+                spacings.push_back({e, wall.a, wall.b, spacing_margin * wall.edge / excess});
         }
     }
     return spacings;

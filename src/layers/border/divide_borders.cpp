@@ -1,8 +1,7 @@
 // Outer borders must be graded before they are frozen, since no Delaunay refinement mends a long edge beside a short
-// one (docs/decisions/0003). First each edge gets the number of parts that its target length needs, and the division
-// points of divided edges shift towards the lengths of the neighbours. Then, wherever the parts on both sides of a
-// corner still differ by more than the allowed ratio, the edge of the longer part gets one more, until nothing changes.
-// Both steps treat the two directions of a front alike.
+// one (docs/decisions/0003). First each edge gets the number of parts that its target length needs. Then, wherever the
+// parts on both sides of a corner differ by more than the allowed ratio, the edge of the longer part gets one more, until
+// nothing changes. Both steps treat the two directions of a front alike.
 #include "layers/border/divide_borders.hpp"
 
 #include <algorithm>
@@ -21,10 +20,22 @@ namespace lamina::layers {
 // Target lengths as the minimum over cones, one round each source, of a slope of the gradation. A tree over the
 // sources finds the minimum at a point; along an edge the target is assembled from rises and plateaus.
 
-// The edges of closed polygons in one list, with the indices of their neighbours.
+// The edges of closed polygons in one list, with the indices of their neighbours: of fronts that are to be divided, and of
+// walls.
 
+namespace {
+
+struct PolygonEdge {
+    Point a, b;
+    double length;
+    std::size_t previous, next;  ///< indices of the edges before a and behind b
+    double requested;            ///< the length that it asks edges beside it for, at least its own
+};
+
+/// Returns the edges of closed polygons, one polygon after the other. least_requests: one length per polygon and edge,
+/// or empty.
 std::vector<PolygonEdge> polygon_edges(std::span<const std::vector<Point>> polygons,
-                                       std::span<const std::vector<double>> least_requests) {
+                                       std::span<const std::vector<double>> least_requests = {}) {
     std::vector<PolygonEdge> edges;
     for (std::size_t p = 0; p < polygons.size(); ++p) {
         const std::vector<Point>& polygon = polygons[p];
@@ -39,9 +50,16 @@ std::vector<PolygonEdge> polygon_edges(std::span<const std::vector<Point>> polyg
     return edges;
 }
 
-// The search for gaps between edges, and the sources along an edge that faces one.
+/// Returns a search tree over segments with the ends a and b.
+template <class Segments>
+core::BoxTree segment_tree(const Segments& segments) {
+    std::vector<Box> boxes;
+    boxes.reserve(segments.size());
+    for (const auto& segment : segments) boxes.push_back(core::bounding_box(segment.a, segment.b));
+    return core::BoxTree(std::move(boxes));
+}
 
-namespace {
+// The lengths that edges of fronts request of their surroundings: their own, or the width of a gap that they face.
 
 /// Returns the distance of two segments that do not cross.
 double segment_distance(Point a, Point b, const PolygonEdge& other) {
@@ -84,205 +102,221 @@ void add_part_sources(Point a, Point b, double requested_length, std::span<const
     sources.push_back({a, b, std::clamp(gap, min_gap_share * requested_length, requested_length)});
 }
 
-}  // namespace
-
+/// Adds the sources of one edge, in order from its start to its end. A gap counts where it is: the edge is halved until
+/// its parts are no longer than the gap that they face. A part requests the width of the gap, or `requested_length` if
+/// that is less. tree: the tree over the edges.
 void add_edge_sources(std::span<const PolygonEdge> edges, const core::BoxTree& tree, std::size_t edge,
                       double requested_length, std::vector<SizeSource>& sources) {
     add_part_sources(edges[edge].a, edges[edge].b, requested_length, edges_across(edges, tree, edge), sources);
 }
 
-namespace {}  // namespace
+/// A stretch of an edge and the target length of the edges on it.
+struct TargetInterval {
+    double length, target;
+};
 
-TargetLength::TargetLength(std::span<const PolygonEdge> edges, const BorderOptions& options)
-    : edges_(edges),
-      gradation_(std::min(options.gradation, 1 - 1 / options.max_ratio) / target_slack),
-      max_target_(options.max_edge / target_slack),
-      tree_({}),
-      at_start_(edges.size(), max_target_) {
-    add_sources(options);
-    find_targets_at_starts();
-}
+/// Finds target lengths. The target at x is the minimum over all edges j of (the length that j requests + gradation x
+/// distance(x, j)), likewise over BorderOptions::sources, and is at most BorderOptions::max_edge. Targets are lower
+/// than the options say by alike, so that no part of an edge is longer than the options allow and lengths grow
+/// by no more than their gradation. Nor do successive parts of one edge, which grow by a factor of about
+/// exp(alike x gradation), exceed max_ratio.
+class TargetLength {
+public:
+    /// Keeps a reference to the edges.
+    TargetLength(std::span<const PolygonEdge> edges, const BorderOptions& options)
+        : edges_(edges),
+          gradation_(std::min(options.gradation, 1 - 1 / options.max_ratio) / alike),
+          max_target_(options.max_edge / alike),
+          tree_({}),
+          at_start_(edges.size(), max_target_) {
+        add_sources(options);
+        find_targets_at_starts();
+    }
 
-void TargetLength::add_sources(const BorderOptions& options) {
-    const core::BoxTree edge_tree = segment_tree(edges_);
-    for (std::size_t i = 0; i < edges_.size(); ++i) {
-        const PolygonEdge& edge = edges_[i];
-        const std::size_t first = sources_.size();
-        add_edge_sources(edges_, edge_tree, i, edge.requested, sources_);
-        at_start_[i] = std::min(at_start_[i], sources_[first].size);
-        at_start_[edge.next] = std::min(at_start_[edge.next], sources_.back().size);
+    /// Returns the target along an edge as a step function that does not depend on the direction of the edge.
+    std::vector<TargetInterval> along(std::size_t edge) const {
+        const PolygonEdge& e = edges_[edge];
+        std::vector<TargetInterval> intervals;
+        add_intervals({e.a, at_start_[edge]}, {e.b, at_start_[e.next]}, e.length, std::min(e.length, max_target_),
+                      intervals);
+        return intervals;
     }
-    for (SizeSource source : options.sources) {
-        source.size /= target_slack;
-        sources_.push_back(source);
-    }
-    std::vector<Box> boxes;
-    std::vector<double> targets;
-    boxes.reserve(sources_.size());
-    targets.reserve(sources_.size());
-    for (const SizeSource& source : sources_) {
-        boxes.push_back(lamina::bounding_box(source));
-        targets.push_back(source.size);
-    }
-    tree_ = core::BoxTree(std::move(boxes));
-    targets_ = tree_.group_minima(std::move(targets));
-}
 
-void TargetLength::find_targets_at_starts() {
-    const auto pass_on = [&](std::size_t edge, std::size_t from, std::size_t to) {
-        at_start_[to] = std::min(at_start_[to], at_start_[from] + gradation_ * edges_[edge].length);
+private:
+    /// An end of a stretch of an edge.
+    struct End {
+        Point at;
+        double target;
     };
-    // Targets are passed on along the fronts first: good bounds make the searches in the tree short.
-    for (int round = 0; round < 2; ++round) {
-        for (std::size_t i = 0; i < edges_.size(); ++i) pass_on(i, i, edges_[i].next);
-        for (std::size_t i = edges_.size(); i-- > 0;) pass_on(i, edges_[i].next, i);
+
+    std::span<const PolygonEdge> edges_;
+    double gradation_, max_target_;
+    std::vector<SizeSource> sources_;           ///< of the edges, then of the options
+    core::BoxTree tree_;                        ///< over the sources
+    std::vector<std::vector<double>> targets_;  ///< of the sources, grouped for the search in the tree
+    std::vector<double> at_start_;              ///< target at the start of each edge
+
+    void add_sources(const BorderOptions& options) {
+        const core::BoxTree edge_tree = segment_tree(edges_);
+        for (std::size_t i = 0; i < edges_.size(); ++i) {
+            const PolygonEdge& edge = edges_[i];
+            const std::size_t first = sources_.size();
+            add_edge_sources(edges_, edge_tree, i, edge.requested, sources_);
+            at_start_[i] = std::min(at_start_[i], sources_[first].size);
+            at_start_[edge.next] = std::min(at_start_[edge.next], sources_.back().size);
+        }
+        for (SizeSource source : options.sources) {
+            source.size /= alike;
+            sources_.push_back(source);
+        }
+        std::vector<Box> boxes;
+        std::vector<double> targets;
+        boxes.reserve(sources_.size());
+        targets.reserve(sources_.size());
+        for (const SizeSource& source : sources_) {
+            boxes.push_back(lamina::bounding_box(source));
+            targets.push_back(source.size);
+        }
+        tree_ = core::BoxTree(std::move(boxes));
+        targets_ = tree_.group_minima(std::move(targets));
     }
-    for (std::size_t i = 0; i < edges_.size(); ++i) at_start_[i] = at(edges_[i].a, at_start_[i]);
-}
 
-std::vector<TargetInterval> TargetLength::along(std::size_t edge) const {
-    const PolygonEdge& e = edges_[edge];
-    std::vector<TargetInterval> intervals;
-    add_intervals({e.a, at_start_[edge]}, {e.b, at_start_[e.next]}, e.length, std::min(e.length, max_target_),
-                  intervals);
-    return intervals;
-}
+    void find_targets_at_starts() {
+        const auto pass_on = [&](std::size_t edge, std::size_t from, std::size_t to) {
+            at_start_[to] = std::min(at_start_[to], at_start_[from] + gradation_ * edges_[edge].length);
+        };
+        // Targets are passed on along the fronts first: good bounds make the searches in the tree short.
+        for (int round = 0; round < 2; ++round) {
+            for (std::size_t i = 0; i < edges_.size(); ++i) pass_on(i, i, edges_[i].next);
+            for (std::size_t i = edges_.size(); i-- > 0;) pass_on(i, edges_[i].next, i);
+        }
+        for (std::size_t i = 0; i < edges_.size(); ++i) at_start_[i] = at(edges_[i].a, at_start_[i]);
+    }
 
-/// Returns the target at p, or `upper_bound` if that is less.
-double TargetLength::at(Point p, double upper_bound) const {
-    return tree_.minimum(p, gradation_, upper_bound, targets_,
-                         [&](std::size_t i) { return distance_to(sources_[i], p); });
-}
+    /// Returns the target at p, or `upper_bound` if that is less.
+    double at(Point p, double upper_bound) const {
+        return tree_.minimum(p, gradation_, upper_bound, targets_,
+                             [&](std::size_t i) { return distance_to(sources_[i], p); });
+    }
 
-/// Adds the intervals between two points of an edge. The target rises from both ends until the rises meet or reach
-/// `cap`, unless something near the middle requests less. In that case the stretch is halved until the middle agrees.
-///
-///              cap ____________
-///                 /            \          target
-///                /              \ .
-///      target_a /                \ target_b
-///              a ---------------- b
-void TargetLength::add_intervals(const End& a, const End& b, double length, double cap,
-                                 std::vector<TargetInterval>& intervals) const {
-    const double min_target = std::min(a.target, b.target);
-    const double expected = std::min(cap, min_target + gradation_ * 0.5 * length);
-    if (length > 2 * min_target) {
-        const Point middle = midpoint(a.at, b.at);
-        const double target = at(middle, expected);
-        if (target < 0.9 * expected || length > 64 * min_target) {
-            add_intervals(a, {middle, target}, 0.5 * length, cap, intervals);
-            add_intervals({middle, target}, b, 0.5 * length, cap, intervals);
-            return;
+    /// Adds the intervals between two points of an edge. The target rises from both ends until the rises meet or reach
+    /// `cap`, unless something near the middle requests less. In that case the stretch is halved until the middle agrees.
+    ///
+    ///              cap ____________
+    ///                 /            \          target
+    ///                /              \ .
+    ///      target_a /                \ target_b
+    ///              a ---------------- b
+    void add_intervals(const End& a, const End& b, double length, double cap,
+                       std::vector<TargetInterval>& intervals) const {
+        const double min_target = std::min(a.target, b.target);
+        const double expected = std::min(cap, min_target + gradation_ * 0.5 * length);
+        if (length > 2 * min_target) {
+            const Point middle = midpoint(a.at, b.at);
+            const double target = at(middle, expected);
+            if (target < 0.9 * expected || length > 64 * min_target) {
+                add_intervals(a, {middle, target}, 0.5 * length, cap, intervals);
+                add_intervals({middle, target}, b, 0.5 * length, cap, intervals);
+                return;
+            }
+        }
+        // The two rises would meet at this distance from a.
+        const double peak = std::clamp(0.5 * (length + (b.target - a.target) / gradation_), 0.0, length);
+        const double rise_a = std::min(peak, std::max(0.0, (cap - a.target) / gradation_));
+        const double rise_b = std::min(length - peak, std::max(0.0, (cap - b.target) / gradation_));
+        add_rise(a.target, rise_a, intervals);
+        const double plateau = length - rise_a - rise_b;
+        if (plateau > 0) {
+            const double n = std::ceil(plateau / (interval_share * cap));
+            intervals.insert(intervals.end(), static_cast<std::size_t>(n), {plateau / n, cap});
+        }
+        const auto from = static_cast<std::ptrdiff_t>(intervals.size());
+        add_rise(b.target, rise_b, intervals);
+        std::reverse(intervals.begin() + from, intervals.end());
+    }
+
+    /// Adds intervals of this total length, on which the target rises from `target` by the gradation.
+    void add_rise(double target, double length, std::vector<TargetInterval>& intervals) const {
+        for (double done = 0; done < length;) {
+            const double step = std::min(interval_share * (target + gradation_ * done), length - done);
+            intervals.push_back({step, target + gradation_ * (done + 0.5 * step)});
+            if (done + step == done) break;
+            done += step;
         }
     }
-    // The two rises would meet at this distance from a.
-    const double peak = std::clamp(0.5 * (length + (b.target - a.target) / gradation_), 0.0, length);
-    const double rise_a = std::min(peak, std::max(0.0, (cap - a.target) / gradation_));
-    const double rise_b = std::min(length - peak, std::max(0.0, (cap - b.target) / gradation_));
-    add_rise(a.target, rise_a, intervals);
-    const double plateau = length - rise_a - rise_b;
-    if (plateau > 0) {
-        const double n = std::ceil(plateau / (interval_share * cap));
-        intervals.insert(intervals.end(), static_cast<std::size_t>(n), {plateau / n, cap});
-    }
-    const auto from = static_cast<std::ptrdiff_t>(intervals.size());
-    add_rise(b.target, rise_b, intervals);
-    std::reverse(intervals.begin() + from, intervals.end());
-}
-
-/// Adds intervals of this total length, on which the target rises from `target` by the gradation.
-void TargetLength::add_rise(double target, double length, std::vector<TargetInterval>& intervals) const {
-    for (double done = 0; done < length;) {
-        const double step = std::min(interval_share * (target + gradation_ * done), length - done);
-        intervals.push_back({step, target + gradation_ * (done + 0.5 * step)});
-        if (done + step == done) break;
-        done += step;
-    }
-}
+};
 
 // One edge divided by equal shares of the integral of ds / target, and the lengths of its parts.
 
-namespace {
-
-/// Edges are divided for the sake of the ratio into at most this many times the parts that the target needs.
-constexpr std::size_t max_refinement = 6;
-
-}  // namespace
-
-EdgeDivision::EdgeDivision(double length, std::vector<TargetInterval> target, double whole_up_to)
-    : length_(length), target_(std::move(target)) {
-    scale_targets(1, 1);
-    excess_ = total_;
-    const bool whole = total_ <= std::max(whole_up_to, target_slack);
-    min_parts_ = whole ? 1 : static_cast<std::size_t>(std::ceil(total_ / target_slack));
-    parts_ = min_parts_;
-}
-
-bool EdgeDivision::extensible() const { return parts_ < max_refinement * min_parts_; }
-
-void EdgeDivision::scale_targets(double first, double last) {
-    double length = 0, done = 0;
-    for (const TargetInterval& i : target_) length += i.length;
-    scaled_ = target_;
-    total_ = 0;
-    for (TargetInterval& i : scaled_) {
-        i.target *= first + (last - first) * ((done + 0.5 * i.length) / length);
-        done += i.length;
-        total_ += i.length / i.target;
+/// An edge with its target lengths and the number of parts that it is divided into. All parts take equal shares of the
+/// integral of ds / target, so they are long where the target is large.
+class EdgeDivision {
+public:
+    /// target: TargetLength::along() of the edge. whole_up_to: the edge may be this many times as long as its target
+    /// and still stay whole.
+    EdgeDivision(double length, std::vector<TargetInterval> target, double whole_up_to)
+        : length_(length), target_(std::move(target)) {
+        for (const TargetInterval& i : target_) excess_ += i.length / i.target;
+        needed_parts_ = excess_ <= whole_up_to ? 1 : static_cast<std::size_t>(std::ceil(excess_ / alike));
+        parts_ = needed_parts_;
     }
-}
 
-std::vector<double> EdgeDivision::division_points() const {
-    std::vector<double> points;
-    double distance = 0, sum = 0;  // along the edge, and of length / target, up to the current interval
-    std::size_t k = 1;
-    for (const auto& [length, target] : scaled_) {
-        const double share = length / target;
-        while (k < parts_) {
-            const double wanted = total_ * static_cast<double>(k) / static_cast<double>(parts_);
-            if (wanted > sum + share) break;
-            points.push_back(distance + (wanted - sum) * target);
-            ++k;
-        }
-        sum += share;
-        distance += length;
-    }
-    assert(points.size() + 1 == parts_);
-    return points;
-}
+    /// Returns the length of the edge over the target length along it.
+    double excess() const { return excess_; }
+    bool divided() const { return parts_ > 1; }
+    /// Returns whether there may be another part for the sake of the ratio.
+    bool extensible() const { return parts_ < max_refinement * needed_parts_; }
+    void add_part() { ++parts_; }
+    /// Takes at least as many parts as another edge.
+    void take_parts(const EdgeDivision& other) { parts_ = std::max(parts_, other.parts_); }
 
-EdgeDivision::EndParts EdgeDivision::end_parts() const {
-    if (parts_ == 1) return {length_, length_};
-    const double part = total_ / static_cast<double>(parts_);
-    const auto advance = [part](auto begin, auto end) {
-        double distance = 0, sum = 0;
-        for (auto it = begin; it != end; ++it) {
-            const double share = it->length / it->target;
-            if (sum + share >= part) return distance + (part - sum) * it->target;
+    /// Returns the distances of the division points from the edge's start, ascending.
+    std::vector<double> division_points() const {
+        std::vector<double> points;
+        double distance = 0, sum = 0;  // along the edge, and of length / target, up to the current interval
+        std::size_t k = 1;
+        for (const auto& [length, target] : target_) {
+            const double share = length / target;
+            while (k < parts_) {
+                const double wanted = excess_ * static_cast<double>(k) / static_cast<double>(parts_);
+                if (wanted > sum + share) break;
+                points.push_back(distance + (wanted - sum) * target);
+                ++k;
+            }
             sum += share;
-            distance += it->length;
+            distance += length;
         }
-        return distance;
-    };
-    return {advance(scaled_.begin(), scaled_.end()), advance(scaled_.rbegin(), scaled_.rend())};
-}
-
-double EdgeDivision::max_ratio() const {
-    double ratio = 1, from = 0, before = 0;
-    std::vector<double> ends = division_points();
-    ends.push_back(length_);
-    for (double to : ends) {
-        const double part = to - from;
-        if (before > 0) ratio = std::max({ratio, part / before, before / part});
-        before = part;
-        from = to;
+        assert(points.size() + 1 == parts_);
+        return points;
     }
-    return ratio;
-}
+
+    /// The lengths of the parts at both ends of the edge.
+    struct EndParts {
+        double first, last;
+    };
+    EndParts end_parts() const {
+        if (parts_ == 1) return {length_, length_};
+        const double part = excess_ / static_cast<double>(parts_);
+        const auto advance = [part](auto begin, auto end) {
+            double distance = 0, sum = 0;
+            for (auto it = begin; it != end; ++it) {
+                const double share = it->length / it->target;
+                if (sum + share >= part) return distance + (part - sum) * it->target;
+                sum += share;
+                distance += it->length;
+            }
+            return distance;
+        };
+        return {advance(target_.begin(), target_.end()), advance(target_.rbegin(), target_.rend())};
+    }
+
+private:
+    double length_, excess_ = 0;
+    std::vector<TargetInterval> target_;
+    std::size_t needed_parts_ = 1, parts_ = 1;
+};
 
 // Edges that lie back to back, on both sides of a sheet. They get the same points.
-
-namespace {
 
 /// Returns, for each edge, the number of the one that lies back to back with it but for a gap, or its own number.
 std::vector<std::size_t> edges_back_to_back(std::span<const PolygonEdge> edges) {
@@ -301,121 +335,53 @@ std::vector<std::size_t> edges_back_to_back(std::span<const PolygonEdge> edges) 
     return across;
 }
 
-}  // namespace
-
-// The balance between the parts on both sides of each corner. Divided edges first give way to their neighbours; where
-// that is not enough, the edge of the longer part gets one more.
-
-namespace {
+// The balance between the parts on both sides of each corner.
 
 void sort_without_duplicates(std::vector<std::size_t>& indices) {
     std::sort(indices.begin(), indices.end());
     indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
 }
 
-/// Returns the factor for the targets at one end of a divided edge, given the length of the part at that end and of the
-/// neighbour's part beyond. The factor takes the part halfway to the neighbour's length where the neighbour is divided
-/// and gives way as well, and beyond the neighbour's length where it cannot. With
-///
-///     |-------- 1 --------|---- 0.61 ---|-- 0.39 --|-- 0.5 --|-- 0.5 --|
-///
-/// a whole edge meets edges that are divided in two at a ratio of 1.64 instead of 2.
-double factor_towards(double own, double neighbour, bool neighbour_divided) {
-    const double q = std::clamp(neighbour / own, 0.25, 4.0);
-    return neighbour_divided ? std::sqrt(q) : q * std::sqrt(std::sqrt(q));
-}
-
-class Balance {
-public:
-    /// `across`: edges_back_to_back(), which have as many parts as each other.
-    Balance(std::span<const PolygonEdge> edges, std::span<const std::size_t> across, double max_ratio,
-            std::vector<EdgeDivision>& divisions)
-        : edges_(edges),
-          across_(across),
-          limit_(max_ratio * (1 + 1e-9)),
-          divisions_(divisions),
-          unscaled_(edges.size()),
-          scaled_(edges.size()) {}
-
-    void run() {
-        for (std::size_t i = 0; i < edges_.size(); ++i) divisions_[i].take_parts(divisions_[across_[i]]);
-        for (std::size_t i = 0; i < edges_.size(); ++i) measure(i);
-        for (std::size_t i = 0; i < edges_.size(); ++i) scale_towards_neighbours(i);
-        std::vector<std::size_t> active(edges_.size());  // edges whose corners are to be judged
-        std::iota(active.begin(), active.end(), std::size_t{0});
-        while (!active.empty()) {
-            const std::vector<std::size_t> longer = edges_with_longer_parts(active);
-            active.clear();
-            for (const std::size_t longer_edge : longer) {
-                divisions_[longer_edge].add_part();
-                divisions_[across_[longer_edge]].take_parts(divisions_[longer_edge]);
-                for (const std::size_t i : {longer_edge, across_[longer_edge]}) {
-                    measure(i);
-                    active.insert(active.end(), {edges_[i].previous, i, edges_[i].next});
-                }
-            }
-            sort_without_duplicates(active);
-            for (std::size_t i : active) scale_towards_neighbours(i);
-        }
-    }
-
-private:
-    std::span<const PolygonEdge> edges_;
-    std::span<const std::size_t> across_;
-    double limit_;  ///< max_ratio with a slack for rounding
-    std::vector<EdgeDivision>& divisions_;
-    std::vector<EdgeDivision::EndParts> unscaled_, scaled_;  ///< per edge, with its targets as given and as scaled
-
-    void measure(std::size_t i) {
-        divisions_[i].scale_targets(1, 1);
-        unscaled_[i] = divisions_[i].end_parts();
-    }
-
-    /// Scales the targets of a divided edge so that its parts approach those of the neighbours in length, as far as the
-    /// ratio of the parts inside the edge allows.
-    void scale_towards_neighbours(std::size_t i) {
-        EdgeDivision& division = divisions_[i];
-        const std::size_t before = edges_[i].previous, after = edges_[i].next;
-        if (division.divided()) {
-            double first = factor_towards(unscaled_[i].first, unscaled_[before].last, divisions_[before].divided());
-            double last = factor_towards(unscaled_[i].last, unscaled_[after].first, divisions_[after].divided());
-            division.scale_targets(first, last);
-            for (int tries = 0; tries < 4 && division.max_ratio() > limit_; ++tries) {
-                first = tries < 3 ? std::sqrt(first) : 1;
-                last = tries < 3 ? std::sqrt(last) : 1;
-                division.scale_targets(first, last);
-            }
-        }
-        scaled_[i] = division.end_parts();
-    }
-
-    /// Returns the edges that have the longer part at a corner of these edges where the ratio is too large, unless they
-    /// may get no more parts.
-    std::vector<std::size_t> edges_with_longer_parts(std::span<const std::size_t> active) const {
-        std::vector<std::size_t> longer;
-        const auto compare = [&](std::size_t i, std::size_t j) {
-            if (scaled_[i].last > limit_ * scaled_[j].first) longer.push_back(i);
-            if (scaled_[j].first > limit_ * scaled_[i].last) longer.push_back(j);
-        };
-        for (std::size_t i : active) {
-            compare(edges_[i].previous, i);
-            compare(i, edges_[i].next);
+/// Adds parts until the lengths of the parts on both sides of each corner differ by no more than max_ratio, except where an
+/// edge may get no more parts. All corners are judged by one state and then changed together, so that the result depends
+/// neither on where a polygon starts nor on its direction. across: edges_back_to_back(), which have as many parts as each
+/// other.
+void balance_divisions(std::span<const PolygonEdge> edges, std::span<const std::size_t> across, double max_ratio,
+                       std::vector<EdgeDivision>& divisions) {
+    constexpr double rounding = 1e-9;
+    const double limit = max_ratio * (1 + rounding);
+    std::vector<EdgeDivision::EndParts> ends;
+    for (std::size_t i = 0; i < edges.size(); ++i) divisions[i].take_parts(divisions[across[i]]);
+    for (const EdgeDivision& division : divisions) ends.push_back(division.end_parts());
+    std::vector<std::size_t> active(edges.size()),
+        longer;  // edges whose corners are judged, and those with longer parts
+    std::iota(active.begin(), active.end(), std::size_t{0});
+    const auto judge = [&](std::size_t i, std::size_t next) {
+        if (ends[i].last > limit * ends[next].first) longer.push_back(i);
+        if (ends[next].first > limit * ends[i].last) longer.push_back(next);
+    };
+    while (!active.empty()) {
+        longer.clear();
+        for (const std::size_t i : active) {
+            judge(edges[i].previous, i);
+            judge(i, edges[i].next);
         }
         sort_without_duplicates(longer);
-        std::erase_if(longer, [&](std::size_t i) { return !divisions_[i].extensible(); });
-        return longer;
+        std::erase_if(longer, [&](std::size_t i) { return !divisions[i].extensible(); });
+        active.clear();
+        for (const std::size_t i : longer) {
+            divisions[i].add_part();
+            divisions[across[i]].take_parts(divisions[i]);
+            for (const std::size_t changed : {i, across[i]}) {
+                ends[changed] = divisions[changed].end_parts();
+                active.insert(active.end(), {edges[changed].previous, changed, edges[changed].next});
+            }
+        }
+        sort_without_duplicates(active);
     }
-};
-
-}  // namespace
-
-void balance_divisions(std::span<const PolygonEdge> edges, double max_ratio, std::vector<EdgeDivision>& divisions) {
-    Balance(edges, edges_back_to_back(edges), max_ratio, divisions).run();
 }
 
 // Exact tests of the parts of divided edges against each other and against the walls.
-
-namespace {
 
 /// A part of a divided edge.
 struct EdgePart {
@@ -465,8 +431,10 @@ std::vector<std::size_t> edges_in_conflict(std::span<const PolygonEdge> edges, s
     return found;
 }
 
-}  // namespace
-
+/// Removes the division points of edges whose parts meet or fold onto other parts or walls. Division points lie on
+/// their edge only to rounding, so this happens where a front nearly touches a wall or another front. points: the
+/// division points of each edge, in order. Precondition: the edges themselves meet each other and the walls in common
+/// vertices and whole common edges only.
 void undo_crossings(std::span<const PolygonEdge> edges, std::span<const PolygonEdge> walls,
                     std::vector<std::vector<Point>>& points) {
     const core::BoxTree wall_tree = segment_tree(walls);
@@ -478,8 +446,6 @@ void undo_crossings(std::span<const PolygonEdge> edges, std::span<const PolygonE
         }
     }
 }
-
-namespace {
 
 /// Returns whether an edge is longer than a source asks for at its middle.
 bool exceeds_sources(const PolygonEdge& edge, const BorderOptions& options) {
@@ -493,23 +459,23 @@ bool exceeds_sources(const PolygonEdge& edge, const BorderOptions& options) {
 /// less.
 EdgeDivision own_division(const PolygonEdge& edge, std::vector<TargetInterval> target, double whole_up_to,
                           const BorderOptions& options) {
-    if (whole_up_to <= target_slack) return {edge.length, std::move(target)};
     const EdgeDivision division(edge.length, target, whole_up_to);
-    const bool spared = !division.divided() && division.excess() > target_slack;
-    return spared && exceeds_sources(edge, options) ? EdgeDivision(edge.length, std::move(target)) : division;
+    const bool spared = !division.divided() && division.excess() > alike;
+    return spared && exceeds_sources(edge, options) ? EdgeDivision(edge.length, std::move(target), alike) : division;
 }
 
-std::vector<EdgeDivision> balanced_divisions(std::span<const PolygonEdge> edges, const BorderOptions& options,
+std::vector<EdgeDivision> balanced_divisions(std::span<const PolygonEdge> edges, std::span<const std::size_t> across,
+                                             const BorderOptions& options,
                                              std::span<const std::vector<double>> whole_up_to) {
     const TargetLength target(edges, options);
     std::vector<double> slacks;
     for (const std::vector<double>& front : whole_up_to) slacks.insert(slacks.end(), front.begin(), front.end());
-    slacks.resize(edges.size(), target_slack);
+    slacks.resize(edges.size(), alike);
     std::vector<EdgeDivision> divisions;
     divisions.reserve(edges.size());
     for (std::size_t i = 0; i < edges.size(); ++i)
         divisions.push_back(own_division(edges[i], target.along(i), slacks[i], options));
-    balance_divisions(edges, options.max_ratio, divisions);
+    balance_divisions(edges, across, options.max_ratio, divisions);
     return divisions;
 }
 
@@ -541,9 +507,9 @@ BorderDivision divide_borders(std::span<const std::vector<Point>> fronts, std::s
                               const BorderOptions& options, std::span<const std::vector<double>> least_requests,
                               std::span<const std::vector<double>> whole_up_to) {
     const std::vector<PolygonEdge> edges = polygon_edges(fronts, least_requests);
-    const std::vector<EdgeDivision> divisions = balanced_divisions(edges, options, whole_up_to);
-    std::vector<std::vector<Point>> points(edges.size());
     const std::vector<std::size_t> across = edges_back_to_back(edges);
+    const std::vector<EdgeDivision> divisions = balanced_divisions(edges, across, options, whole_up_to);
+    std::vector<std::vector<Point>> points(edges.size());
     for (std::size_t i = 0; i < edges.size(); ++i)
         points[i] = across[i] < i ? points_across(edges[across[i]], points[across[i]], edges[i])
                                   : division_points(edges[i], divisions[i]);

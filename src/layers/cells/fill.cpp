@@ -6,7 +6,6 @@
 #include <cassert>
 #include <cstdint>
 #include <iterator>
-#include <optional>
 #include <span>
 #include <utility>
 
@@ -164,32 +163,17 @@ private:
             cells_.quads.push_back({{a, top[0], top[1], d}});
             cells_.quad_layer.push_back(static_cast<std::uint16_t>(n));
         } else {
-            add_divided_cell(lower, top, lower, n);
+            add_strip(lower, top);
         }
     }
 
-    /// Adds the cells between two chains. Where they may be whole, and the top is divided, the triangle on this edge
-    /// of the lower chain may be joined with one beside it to a cell of layer n.
-    void add_divided_cell(std::span<const VertexId> lower, std::span<const VertexId> top,
-                          const std::array<VertexId, 2>& edge, std::uint32_t n) {
-        const std::size_t begin = cells_.triangles.size();
-        const bool is_strip = add_strip(lower, top);
-        if (!is_strip || form_ != GridCells::whole || top.size() == 2 || edge[0] == edge[1]) return;
-        const std::optional<Quad> quad =
-            join_on_lower_edge(layer_.points, edge[0], edge[1], first_leads_, begin, cells_.triangles);
-        if (!quad) return;
-        cells_.quads.push_back(*quad);
-        cells_.quad_layer.push_back(static_cast<std::uint16_t>(n));
-    }
-
     /// Adds the triangles between two chains of vertices. Coordinates may be too coarse for the triangles of a strip;
-    /// then any triangulation will do. Returns whether it could make the strip.
-    bool add_strip(std::span<const VertexId> lower, std::span<const VertexId> top) {
-        if (strips_.cut(lower, top, first_leads_, cells_.triangles)) return true;
+    /// then any triangulation will do.
+    void add_strip(std::span<const VertexId> lower, std::span<const VertexId> top) {
+        if (strips_.cut(lower, top, first_leads_, cells_.triangles)) return;
         corners_.assign(top.begin(), top.end());
         corners_.insert(corners_.end(), lower.rbegin(), lower.rend());
         add_polygon();
-        return false;
     }
 
     /// Adds the triangle at the top of a column where one ray has a layer more, together with the cell below. Alone it
@@ -210,7 +194,7 @@ private:
         if (second.vertex(common - 1) != corners_.back()) corners_.push_back(second.vertex(common - 1));
         if (second.layers > common) corners_.push_back(second.vertex(common));
         const std::vector<VertexId> lower = corners_;
-        add_divided_cell(lower, column.top, {first.vertex(common - 1), second.vertex(common - 1)}, common);
+        add_strip(lower, column.top);
     }
 
     /// Adds the cells of the first layer in a sharp corner of the wall that has no ray. The triangles on the edges of

@@ -65,8 +65,7 @@ LAMINA_EXPORT delaunay::pieces::PiecewiseTriangulation triangulate_layer(const L
 /// The form of a cell of the grid that has four corners.
 enum class GridCells {
     split,  ///< two triangles
-    /// A quadrilateral, where it is strictly convex and the border does not divide its top; else triangles, and a
-    /// quadrilateral on its lower edge where faces are more orthogonal with it.
+    /// A quadrilateral, where it is strictly convex and the border does not divide its top; else triangles.
     whole,
 };
 

@@ -46,8 +46,7 @@ std::vector<double> first_heights_on_wall(const LayerGrowth& growth, std::size_t
     core::parallel_for(heights.size(), 64, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) heights[i] = height_at(wall[i], chain);
     });
-    lower_round(std::span(heights),
-                [&](std::size_t from, std::size_t) { return max_first_height_ratio * heights[from]; });
+    lower_round(std::span(heights), [&](std::size_t from, std::size_t) { return alike * heights[from]; });
     return heights;
 }
 

@@ -197,7 +197,7 @@ LogRatios log_ratios(const LayeredRays& rays, std::size_t before, std::size_t ra
     const bool changes = rays.counts[before] != n || rays.counts[after] != n;
     const double to_square = core::log_reproducible(square / last),
                  lowest = core::log_reproducible(least_ratio(last / part));
-    const double least = core::log_reproducible(changes && !quads ? even_tallness : least_tallness);
+    const double least = core::log_reproducible(changes && !quads ? wanted_tallness : least_tallness);
     return {.part = part,
             .wanted = std::clamp(core::log_reproducible(wanted_tallness) + to_square, lowest, 0.0),
             .least = least + to_square,
@@ -222,7 +222,7 @@ std::vector<double> end_ratios(const LayeredRays& rays, bool quads) {
         lower_to_neighbours(rays.set, *values, [&](std::size_t from, std::size_t to) {
             const double part = std::max(bounds[from].part, bounds[to].part);
             if (!(part > 0)) return HUGE_VAL;
-            return (*values)[from] + most_rise * distance(rays.tip(from), rays.tip(to)) / (most_moved * part);
+            return (*values)[from] + distance(rays.tip(from), rays.tip(to)) / part;
         });
     std::vector<double> ratios;
     for (std::size_t i = 0; i < wanted.size(); ++i) {

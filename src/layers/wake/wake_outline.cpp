@@ -106,9 +106,7 @@ private:
 
     void add(const WakePoint& left, const WakePoint& right, double at, double edge) {
         const double opened =
-            (1 + std::min(first_wake_opening + at / line_.length() * (last_wake_opening - first_wake_opening),
-                          opening_per_height * edge / std::max(left.left, right.right))) *
-            opening_;
+            (1 + std::min(wake_opening, opening_per_height * edge / std::max(left.left, right.right))) * opening_;
         const double widest = std::min(left.left, right.right) / (layers_when_open * growth_.first_height);
         opening_ = std::max(opening_, std::min(opened, widest));
         distance_ = at;
