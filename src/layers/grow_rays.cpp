@@ -182,11 +182,10 @@ RaySet rays_of(const Walls& walls, std::span<const DividedWake> wakes, const Lay
         std::vector<RayVertex> outline = outline_with_wake(element.points, wake == wakes.end() ? nullptr : &*wake);
         const OutlineKind kind = outline_kind(element);
         const LayerGrowth own = growth_on_element(growth, e);
-        if (kind == OutlineKind::jagged && !options.equal_fans && !element.is_mirrored)
+        if (rules_of(kind).rayless_corners && !options.equal_fans && !element.is_mirrored)
             leave_out_sharp_corners(own.first_height, outline);
-        if (!own.wall_first_heights.empty())
-            set_first_heights(first_heights_on_wall(own, 0, element.points), element.points, own.first_height, outline);
-        if (!own.least_heights.empty()) set_least_heights(own.least_heights, outline);
+        set_first_heights(first_heights_on_wall(own, 0, element.points), element.points, own.first_height, outline);
+        set_least_heights(own.least_heights, outline);
         const std::vector<RayLine> upright = make_rays(outline, kind, options, own);
         std::vector<RayLine> rays = make_rays(outline, kind, options, own, heights_at_vertices(outline, upright, own));
         shown.push_back(element.is_mirrored ? mirror_rays(element, *geometry.symmetry, rays) : rays.size());

@@ -97,10 +97,10 @@ void add_vertex_rays(const RayVertex& at, const WallVertex& vertex, double max_a
 /// Adds the rays between two others that differ by more than the largest angle, evenly spaced on the edge. Corners of
 /// jagged outlines are so many, and their edges so short, that neighbouring edges would differ by whole factors
 /// (docs/layer.md). Rays are added there only where a column opens widely, none where rays converge.
-void add_refining_rays(const RayLine& first, const RayLine& last, double max_angle, bool jagged,
+void add_refining_rays(const RayLine& first, const RayLine& last, double max_angle, const OutlineRules& rules,
                        std::vector<RayLine>& rays) {
     const IntermediateRays between(first, last);
-    if (jagged && between.angle() <= 0) return;
+    if (!rules.refine_converging && between.angle() <= 0) return;
     const std::size_t parts = angle_parts(between.angle(), max_angle);
     for (std::size_t k = 1; k < parts; ++k) between.add(static_cast<double>(k), static_cast<double>(parts), rays);
 }
@@ -109,8 +109,8 @@ void add_refining_rays(const RayLine& first, const RayLine& last, double max_ang
 
 std::vector<RayLine> make_rays(std::span<const RayVertex> outline, OutlineKind kind, const LayerOptions& options,
                                const LayerGrowth& growth, std::span<const double> heights) {
-    const bool smooth = kind == OutlineKind::smooth, jagged = kind == OutlineKind::jagged;
-    const double min_fan_turning_deg = smooth && !options.equal_fans
+    const OutlineRules& rules = rules_of(kind);
+    const double min_fan_turning_deg = rules.blunt_fans && !options.equal_fans
                                            ? std::min(geometry::sharp_corner_deg, 2 * options.max_ray_angle_deg)
                                            : geometry::sharp_corner_deg;
     std::vector<WallVertex> vertices = wall_vertices(outline, options, min_fan_turning_deg);
@@ -129,7 +129,7 @@ std::vector<RayLine> make_rays(std::span<const RayVertex> outline, OutlineKind k
         const RayLine after{.origin = outline[next].at,
                             .direction = first_direction(vertices[next]),
                             .least_height = outline[next].least_height};
-        add_refining_rays(RayLine(rays.back()), after, most_opening(kind, options), jagged, rays);
+        add_refining_rays(RayLine(rays.back()), after, most_opening(kind, options), rules, rays);
     }
     return rays;
 }

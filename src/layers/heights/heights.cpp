@@ -23,6 +23,22 @@
 
 namespace lamina::layers {
 
+namespace {
+
+/// The vertices of an outline on the wall, and those on the wake behind it.
+struct OutlineParts {
+    std::span<RayVertex> on_wall, on_wake;
+};
+
+OutlineParts parts_of_outline(std::span<RayVertex> outline) {
+    const auto wake = std::find_if(outline.begin(), outline.end(),
+                                   [](const RayVertex& vertex) { return vertex.place != RayPlace::wall; });
+    const auto count = static_cast<std::size_t>(wake - outline.begin());
+    return {outline.first(count), outline.subspan(count)};
+}
+
+}  // namespace
+
 double height_at(Point p, std::span<const WallHeight> chain) {
     double nearest = HUGE_VAL, height = 0;
     for (std::size_t k = 0; k < chain.size(); ++k) {
@@ -52,32 +68,26 @@ std::vector<double> first_heights_on_wall(const LayerGrowth& growth, std::size_t
 
 void set_first_heights(std::span<const double> heights, std::span<const Point> wall, double first_height,
                        std::span<RayVertex> outline) {
-    double last = 1;
+    if (heights.empty()) return;
+    const auto [on_wall, on_wake] = parts_of_outline(outline);
     std::size_t k = 0;
-    for (RayVertex& vertex : outline) {
-        if (vertex.place != RayPlace::wall) continue;
+    for (RayVertex& vertex : on_wall) {
         while (wall[k] != vertex.at) k = (k + 1) % wall.size();  // the outline leaves vertices of the wall out
-        last = vertex.opening = heights[k] / first_height;
+        vertex.opening = heights[k] / first_height;
     }
     // A wake begins between the last vertex of the wall and the first one.
-    const double at_end = std::min(outline.front().opening, last);
-    for (RayVertex& vertex : outline)
-        if (vertex.place != RayPlace::wall) vertex.opening *= at_end;
+    for (RayVertex& vertex : on_wake) vertex.opening *= std::min(on_wall.front().opening, on_wall.back().opening);
 }
 
 void set_least_heights(std::span<const WallHeight> chain, std::span<RayVertex> outline) {
-    const std::size_t n = outline.size();
-    core::parallel_for(n, 64, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-            if (outline[i].place == RayPlace::wall) outline[i].least_height = height_at(outline[i].at, chain);
+    const auto [on_wall, on_wake] = parts_of_outline(outline);
+    core::parallel_for(on_wall.size(), 64, [&, on_wall = on_wall](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) on_wall[i].least_height = height_at(on_wall[i].at, chain);
     });
     // At a trailing edge heights of both sides stand at one point. Before a wake it has a vertex for either side.
-    for (std::size_t i = 0; i < n; ++i) {
-        const RayVertex &before = outline[(i + n - 1) % n], &after = outline[(i + 1) % n];
-        if (outline[i].place != RayPlace::wall) continue;
-        if (after.place != RayPlace::wall) outline[i].least_height = before.least_height;
-        if (before.place != RayPlace::wall) outline[i].least_height = after.least_height;
-    }
+    if (on_wake.empty()) return;
+    on_wall.front().least_height = on_wall[1].least_height;
+    on_wall.back().least_height = on_wall[on_wall.size() - 2].least_height;
 }
 
 std::vector<double> least_heights(const RaySet& set) {
@@ -179,8 +189,7 @@ std::vector<double> asked_on_element(const RaySet& own, const LayerGrowth& growt
             asked[i] = own.lines[i].slant * own.lines[i].opening * law.of(i).back();
         return asked;
     }
-    const std::vector<double> least = growth.least_heights.empty() ? std::vector<double>() : least_heights(own);
-    asked = heights_of_isotropy(own, law.of(0), least);
+    asked = heights_of_isotropy(own, law.of(0), least_heights(own));
     for (std::size_t i = 0; i < asked.size(); ++i) {
         if (!growth.thickness && asked[i] >= own.lines[i].opening * law.of(i).back()) throw_too_many_layers();
         if (growth.thickness) asked[i] = std::min(asked[i], *growth.thickness);

@@ -151,7 +151,7 @@ std::vector<double> heights_of_isotropy(const RaySet& set, std::span<const doubl
         if (!rays.inside_fan(i)) front[i] = isotropic_height(rays, i, heights, opening(i));
     fill_fans(set, front);
     if (uses("raise_over_fans")) raise_to(heights_over_fans(rays, front.size()), slope_beside_fans, set, rays, front);
-    if (!least.empty()) raise_to({least.begin(), least.end()}, max_front_slope, set, rays, front);
+    raise_to({least.begin(), least.end()}, max_front_slope, set, rays, front);
     end_wakes();
     if (uses("round_kinks")) round_kinks(rays, front);
     for (std::size_t i = 0; i < front.size(); ++i)

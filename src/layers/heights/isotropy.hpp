@@ -12,10 +12,10 @@ namespace lamina::layers {
 
 /// Returns, for each ray, the height at which the spacing of the layers reaches the distance of the rays there, or the
 /// height of all layers where none does; the height of one layer at least. It varies smoothly along the walls.
-/// heights[n] is the height of layer n; heights[0] = 0. `least` holds one height per ray, or nothing; the heights
+/// heights[n] is the height of layer n; heights[0] = 0. `least` holds one height per ray; the heights
 /// returned are no lower, but for the rounding of kinks.
 std::vector<double> heights_of_isotropy(const RaySet& set, std::span<const double> heights,
-                                        std::span<const double> least = {});
+                                        std::span<const double> least);
 
 /// Returns, for each ray, the largest height of a layer on the way to the front: some widths of a cell, but no less
 /// than the first height along it.
