@@ -223,6 +223,8 @@ TEST(CurvedCells, AreReadBackFromMshFiles) {
         for (unsigned order = 2; order <= max_cell_order; ++order) {
             CaseOptions options = curved_options(order, topology);
             options.layer.layers = 5;
+            options.far_field.size = 3;
+            options.sizing.gradation = 0.4;
             const MeshResult result = generate_mesh({"naca:0012"}, options);
             for (const char* const format : {"msh41", "msh41-binary", "msh22", "msh22-binary"}) {
                 const std::filesystem::path file = folder.path() / "curved.msh";
