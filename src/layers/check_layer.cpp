@@ -168,23 +168,35 @@ private:
             std::size_t on_wall = 0;
             for (std::size_t i = 0; i < rays.size(); ++i) {
                 const Ray &ray = rays[i], &next = rays[(i + 1) % rays.size()];
-                const Point origin = at(ray.origin);
                 // The last ray before the wake of a sharp trailing edge stands where the wall begins.
                 const bool closes = next.place == RayPlace::wake && ray.origin == layer_.walls[e].front();
                 if (ray.place == RayPlace::wall && !closes)
                     while (on_wall < layer_.walls[e].size() && layer_.walls[e][on_wall] != ray.origin) ++on_wall;
-                if (on_wall == layer_.walls[e].size()) report("rays are not in the order of the wall", origin);
-                if (std::abs(length(ray.direction) - 1) > 1e-12) report("direction is no unit vector", origin);
-                if (ray.layers > ray.requested) report("ray has more layers than requested", origin);
-                if (ray.layers > next.layers + 1 || next.layers > ray.layers + 1)
-                    report("neighbouring rays differ by more than one layer", origin);
-                const double angle = core::angle_between(ray.direction, next.direction);
-                const bool ends_wake = ray.place == RayPlace::wake_end || next.place == RayPlace::wake_end;
-                if (!is_ray_angle_allowed(angle, e) && !ends_wake)
-                    report(fmt::format("{} degrees between rays", core::degrees(angle)), origin);
+                if (on_wall == layer_.walls[e].size()) report("rays are not in the order of the wall", at(ray.origin));
+                check_against_next(ray, next, e);
                 check_heights(ray, growth);
             }
         }
+    }
+
+    /// Checks a ray of an element, and that the next one is like it.
+    void check_against_next(const Ray& ray, const Ray& next, std::size_t element) {
+        const Point origin = at(ray.origin);
+        if (std::abs(length(ray.direction) - 1) > 1e-12) report("direction is no unit vector", origin);
+        if (ray.layers > ray.requested) report("ray has more layers than requested", origin);
+        if (ray.layers > next.layers + 1 || next.layers > ray.layers + 1)
+            report("neighbouring rays differ by more than one layer", origin);
+        const double angle = core::angle_between(ray.direction, next.direction);
+        const bool ends_wake = ray.place == RayPlace::wake_end || next.place == RayPlace::wake_end;
+        if (!is_ray_angle_allowed(angle, element) && !ends_wake)
+            report(fmt::format("{} degrees between rays", core::degrees(angle)), origin);
+    }
+
+    /// Returns the range of the ratio of a spacing to the one below, over that of the law.
+    static std::pair<double, double> allowed_change(bool is_whole, bool is_upper, double growth_of_law) {
+        if (is_whole) return {1, 1};
+        if (is_upper) return {1 / max_change_of_growth, max_change_of_growth};
+        return {std::min(1.0, 1 / growth_of_law), 1};
     }
 
     /// Checks that the points of a ray lie on it, below its limit, and that its spacings grow as the law says: exactly where
@@ -214,11 +226,7 @@ private:
             const double growth_of_law = (of_law[n] - of_law[n - 1]) / (of_law[n - 1] - of_law[n - 2]);
             const double change = spacing / spacing_below / growth_of_law;
             const double slack = 1e-9 + 8 * rounding / spacing_below;
-            const bool is_stretched = !is_whole && n > ray.layers / 2;
-            const double most = is_stretched ? max_change_of_growth : 1;
-            const double least = is_stretched ? 1 / max_change_of_growth
-                                 : is_whole   ? 1
-                                              : std::min(1.0, 1 / growth_of_law);
+            const auto [least, most] = allowed_change(is_whole, n > ray.layers / 2, growth_of_law);
             if (!(change >= least - slack && change <= most + slack))
                 report(fmt::format("the spacing of layer {} grows {} times as the law says", n, change), p);
         }

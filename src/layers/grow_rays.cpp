@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <ranges>
 #include <utility>
 
 #include <fmt/format.h>
@@ -84,8 +85,8 @@ RayLine image_of_ray(const RayLine& ray, const RayLine& before, double y) {
     image.origin = geometry::image_of(ray.origin, y);
     image.direction.y = -ray.direction.y;
     image.corner_after.clear();
-    for (auto p = before.corner_after.rbegin(); p != before.corner_after.rend(); ++p)
-        image.corner_after.push_back(geometry::image_of(*p, y));
+    for (const Point p : std::views::reverse(before.corner_after))
+        image.corner_after.push_back(geometry::image_of(p, y));
     return image;
 }
 

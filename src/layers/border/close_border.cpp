@@ -107,6 +107,20 @@ private:
         layer_.walls[element].insert(layer_.walls[element].end(), divisions.begin(), divisions.end());
     }
 
+    /// Places the origin of a ray at the end of the wall so far, unless it is there.
+    void place_origin(std::size_t ray, std::vector<VertexId>& wall) {
+        const auto is_at = [&](VertexId v) { return set_.lines[ray].origin == layer_.points[v.index()]; };
+        if (!wall.empty() && is_at(wall.back())) {
+            origin_of_ray_[ray] = wall.back();
+        } else if (!wall.empty() && is_at(wall.front())) {
+            // A wall with a wake ends at the sharp trailing edge that it begins at.
+            origin_of_ray_[ray] = wall.front();
+        } else {
+            origin_of_ray_[ray] = add_point(set_.lines[ray].origin, 0);
+            wall.push_back(origin_of_ray_[ray]);
+        }
+    }
+
     /// Places the walls. Division points of the border divide the wall, too, where the border runs along it.
     void place_walls() {
         layer_.walls.resize(set_.elements());
@@ -116,16 +130,7 @@ private:
             const std::size_t edges = edges_in_domain(e);
             std::size_t k = 0;  // the next corner of the front
             for (std::size_t i = set_.begin[e]; i < rays_.domain_end(e); ++i) {
-                const Point origin = set_.lines[i].origin;
-                const bool on_wall = set_.lines[i].place == RayPlace::wall;
-                if (on_wall && (wall.empty() || origin != layer_.points[wall.back().index()])) {
-                    // A wall with a wake ends at the sharp trailing edge that it begins at.
-                    const bool closed = !wall.empty() && origin == layer_.points[wall.front().index()];
-                    origin_of_ray_[i] = closed ? wall.front() : add_point(origin, 0);
-                    if (!closed) wall.push_back(origin_of_ray_[i]);
-                } else if (on_wall) {
-                    origin_of_ray_[i] = wall.back();
-                }
+                if (set_.lines[i].place == RayPlace::wall) place_origin(i, wall);
                 const auto divide_edge_behind = [&](std::size_t after) {
                     if (k < edges && corners_[e][k].ray == i && corners_[e][k].after == after) divide_wall(e, k++);
                 };
@@ -290,6 +295,15 @@ Layer build_layer(const Rays& rays, const std::vector<std::vector<FrontCorner>>&
 
 // The corners of fronts, and the fronts as points.
 
+/// Adds the corners of a front at a ray and at the corners of the wall behind it. `ends` tells the last ray of the domain.
+void add_corners(const Rays& rays, std::size_t i, std::size_t next, bool ends, std::vector<FrontCorner>& front) {
+    const RayLine &ray = rays.set.lines[i], &behind = rays.set.lines[next];
+    const bool on_wall = rays.counts[i] == 0 && rays.counts[next] == 0;
+    if (!on_wall || ray.origin != behind.origin || ends) front.push_back({i, rays.counts[i]});
+    if (!on_wall) return;
+    for (std::size_t k = 1; k <= ray.corner_after.size(); ++k) front.push_back({i, 0, k});
+}
+
 std::vector<std::vector<FrontCorner>> front_corners(const Rays& rays) {
     const RaySet& set = rays.set;
     const std::vector<std::uint32_t>& counts = rays.counts;
@@ -306,14 +320,9 @@ std::vector<std::vector<FrontCorner>> front_corners(const Rays& rays) {
             if (cleft < clefts.size() && i == clefts[cleft].first) {
                 fronts[e].push_back({i, counts[i], 0, clefts[cleft]});
                 i = clefts[cleft++].last - 1;
-                continue;
+            } else {
+                add_corners(rays, i, i + 1 < end ? i + 1 : begin, i + 1 == rays.domain_end(e), fronts[e]);
             }
-            const std::size_t next = i + 1 < end ? i + 1 : begin;
-            const bool one_corner = counts[i] == 0 && counts[next] == 0 &&
-                                    set.lines[i].origin == set.lines[next].origin && i + 1 != rays.domain_end(e);
-            if (!one_corner) fronts[e].push_back({i, counts[i]});
-            if (counts[i] > 0 || counts[next] > 0) continue;
-            for (std::size_t k = 1; k <= set.lines[i].corner_after.size(); ++k) fronts[e].push_back({i, 0, k});
         }
     }
     return fronts;
@@ -343,23 +352,30 @@ std::vector<std::vector<Point>> fronts(const Rays& rays) {
 
 // The edges of walls and outer borders, sorted by what lies beside them.
 
+/// Returns the edges of chains, each closed unless the layer of its element is open.
+std::vector<std::vector<Segment>> edges_of(const std::vector<std::vector<VertexId>>& chains, const Layer& layer) {
+    std::vector<std::vector<Segment>> edges(chains.size());
+    for (std::size_t e = 0; e < chains.size(); ++e)
+        for (std::size_t i = 0; i + layer.is_open(e) < chains[e].size(); ++i)
+            edges[e].push_back({chains[e][i], chains[e][i + 1 < chains[e].size() ? i + 1 : 0]});
+    return edges;
+}
+
+std::vector<Segment> sorted_together(const std::vector<std::vector<Segment>>& edges) {
+    std::vector<Segment> together;
+    for (const std::vector<Segment>& of_element : edges)
+        together.insert(together.end(), of_element.begin(), of_element.end());
+    std::sort(together.begin(), together.end());
+    return together;
+}
+
 LayerEdges layer_edges(const Layer& layer) {
     LayerEdges result;
-    std::vector<Segment> wall_edges, border_edges;  // both counter-clockwise
-    for (const auto& wall : layer.walls) {
-        const bool open = layer.is_open(result.walls.size());
-        auto& clockwise = result.walls.emplace_back();
-        for (std::size_t i = 0; i + open < wall.size(); ++i) {
-            const VertexId a = wall[i], b = wall[i + 1 < wall.size() ? i + 1 : 0];
-            wall_edges.push_back({a, b});
-            clockwise.push_back({b, a});
-        }
-    }
-    for (std::size_t e = 0; e < layer.borders.size(); ++e) {
-        const std::vector<VertexId>& border = layer.borders[e];
-        for (std::size_t i = 0; i + layer.is_open(e) < border.size(); ++i)
-            border_edges.push_back({border[i], border[i + 1 < border.size() ? i + 1 : 0]});
-    }
+    result.walls = edges_of(layer.walls, layer);
+    const std::vector<Segment> wall_edges = sorted_together(result.walls),
+                               border_edges = sorted_together(edges_of(layer.borders, layer));  // counter-clockwise
+    for (std::vector<Segment>& wall : result.walls)
+        for (Segment& edge : wall) std::swap(edge.a, edge.b);
     for (std::size_t e = 0; e < layer.rays.size(); ++e) {
         if (!layer.is_open(e) || layer.rays[e].empty()) continue;
         std::vector<Segment>& ends = layer.is_outer(e) ? result.sides : result.symmetry;
@@ -370,8 +386,6 @@ LayerEdges layer_edges(const Layer& layer) {
     result.region = result.sides;
     result.region.insert(result.region.end(), result.symmetry.begin(), result.symmetry.end());
 
-    std::sort(wall_edges.begin(), wall_edges.end());
-    std::sort(border_edges.begin(), border_edges.end());
     for (const Segment& e : border_edges) {
         if (std::binary_search(wall_edges.begin(), wall_edges.end(), e)) continue;
         result.region.push_back(e);

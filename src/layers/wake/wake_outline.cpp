@@ -284,6 +284,7 @@ void keep_wakes_clear(const RaySet& walls, std::span<const double> needed, std::
     for (const DividedWake& wake : wakes)
         for_each_edge(wake, [&](Point a, Point b, double from) { obstacles.push_back({a, b, &wake, from}); });
     std::vector<Box> boxes;
+    boxes.reserve(obstacles.size());
     for (const Obstacle& obstacle : obstacles) boxes.push_back(core::bounding_box(obstacle.a, obstacle.b));
     const core::BoxTree tree(std::move(boxes));
     for (const DividedWake& wake : wakes) {
@@ -373,8 +374,8 @@ std::vector<double> shares_between_stations(double length, double widest, double
     // The rest between both halves is divided evenly.
     const double rest = length - 2 * half.back();
     const double parts = std::max(1.0, std::ceil(rest / std::max(widest, cell)));
-    std::vector<double> shares;
-    for (const double at : half) shares.push_back(at / length);
+    std::vector<double> shares = half;
+    for (double& share : shares) share /= length;
     for (double part = 1; part < parts; ++part) shares.push_back((half.back() + rest * part / parts) / length);
     for (std::size_t i = half.size(); i-- > 0;) shares.push_back(1 - half[i] / length);
     return shares;
