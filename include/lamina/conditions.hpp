@@ -20,14 +20,14 @@ namespace lamina {
 /// The conditions as they are given.
 struct FlowConditions {
     double alpha_deg = 0;  ///< angle of attack: the flow comes from the left and rises at this angle
-    /// Angles of attack that one mesh is to serve, in degrees; alpha_deg is one of them, where a single one is needed. The
-    /// option `alpha` sets both. Empty: alpha_deg alone.
-    std::optional<ValueRange> alphas{};
     std::optional<double> reynolds{};   ///< Reynolds number of the free stream, based on the chord
     std::optional<double> mach{};       ///< Mach number of the free stream
     std::optional<double> chord{};      ///< reference chord in units of the input; empty: the extent in x
     std::optional<double> velocity{};   ///< of the free stream, in units of the input per second
     std::optional<double> viscosity{};  ///< kinematic viscosity, in squared units of the input per second
+    /// Angles of attack that one mesh is to serve, in degrees; alpha_deg is one of them, where a single one is needed. The
+    /// option `alpha` sets both. Empty: alpha_deg alone.
+    std::optional<ValueRange> alphas{};
 };
 
 /// Throws OptionError for an option out of range, and for velocity or viscosity alone or beside the Reynolds number.
