@@ -26,9 +26,7 @@ def graphs(moving, shapes):
     """Returns a graph for each shape: places of the vertices, and the edges of the cells in both directions."""
     from torch_geometric.data import Data
 
-    corners = np.concatenate([np.roll(cells, k, axis=1)[:, :2] for cells in (moving.mesh.triangles, moving.mesh.quads)
-                              for k in range(cells.shape[1])])
-    edges = torch.from_numpy(np.unique(np.concatenate([corners, corners[:, ::-1]]), axis=0).T.astype(np.int64))
+    edges = torch.from_numpy(moving.mesh.edge_index(both_directions=True))
     points, errors = moving.morph_all(moving.walls_on(shape) for shape in shapes)
     return [Data(pos=torch.from_numpy(p), edge_index=edges) for p, error in zip(points, errors) if not error]
 

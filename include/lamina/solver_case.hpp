@@ -107,10 +107,13 @@ LAMINA_EXPORT void start_case_from(FlowSolver solver, const std::filesystem::pat
                                    const std::filesystem::path& folder, double lift);
 
 /// Writes a case of OpenFOAM whose mesh moves, without its times: the mesh, and an Allrun that takes the flow from a steady
-/// case of the same mesh and lets it go on by pimpleFoam. Throws UsageError for the mesh of an axisymmetric flow.
-LAMINA_EXPORT void write_moving_case(const Mesh& reference, const std::filesystem::path& folder);
+/// case of the same mesh and lets it go on by pimpleFoam. Throws UsageError for the mesh of an axisymmetric flow, and where
+/// the folder has times of another motion.
+LAMINA_EXPORT void write_moving_case(const Mesh& reference, std::span<const double> times,
+                                     const std::filesystem::path& folder);
 /// Gives the case the places of all vertices at a time, in the order of the mesh: as points, which checkMesh reads, and as
-/// displacements, which pimpleFoam follows.
+/// displacements, which pimpleFoam follows. Throws InputError for another number of points, and for a time that is negative
+/// or not finite.
 LAMINA_EXPORT void add_moved_points(const Mesh& reference, std::span<const Point> points, double time,
                                     const std::filesystem::path& folder);
 /// Returns the names of all files of such a case with these times. The first is the folder of the mesh.

@@ -103,6 +103,8 @@ def hicks_henne_shape(moving: MorphMap, crests: Sequence[float], *, width: float
     """
     if not all(0 < crest < 1 for crest in crests):
         raise InputError("crests must be between 0 and 1")
+    if not width > 0:
+        raise InputError("width must be > 0")
 
     def bump(crest: float) -> Callable[[np.ndarray], np.ndarray]:
         return lambda x: np.abs(np.sin(np.pi * x**(np.log(0.5) / np.log(crest))))**width
@@ -115,7 +117,7 @@ def naca_shape(moving: MorphMap, *, body: int = 0) -> ShapeParameters:
     """Returns NACA 4-digit sections with sharp tails of (thickness, camber, place of the camber), all in chords.
 
     Vertices keep their x. The camber line is added to the thickness without turning it, so that shapes are smooth functions
-    of all three. `initial` has the thickness of the body, no camber, and its place at 0.4. Source: E. N. Jacobs, K. E.
+    of all three. `initial` has the extent of the body in y, no camber, and its place at 0.4. Source: E. N. Jacobs, K. E.
     Ward, R. M. Pinkerton, NACA report 460 (1933).
     """
     surfaces = _Surfaces(moving, body)
@@ -126,6 +128,8 @@ def naca_shape(moving: MorphMap, *, body: int = 0) -> ShapeParameters:
 
     def camber(place: float) -> tuple[np.ndarray, np.ndarray]:
         """Returns the camber line for a camber of 1, and its derivative by the place."""
+        if not 0 < place < 1:
+            raise InputError("the place of the camber must be between 0 and 1")
         ahead = x < place
         front = (2 * place * x - x**2) / place**2, 2 * (x**2 - place * x) / place**3
         rear = 1 - ((x - place) / (1 - place))**2, 2 * (x - place) * (1 - x) / (1 - place)**3

@@ -31,8 +31,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* log_name = "log.solver";
-/// Solvers with unknowns at vertices take triangles as stretched as remesh() makes them.
-constexpr double most_ratio = RemeshOptions{}.max_ratio;
 
 void require_program(const std::string& word) {
     if (find_program(word).empty())
@@ -117,10 +115,6 @@ public:
         if (solver_ == FlowSolver::su2) return {"Mach", "Pressure"};
         return {"mag(U)", "p"};
     }
-    std::optional<double> usual_ratio() const override {
-        if (solver_ == FlowSolver::su2) return most_ratio;
-        return {};
-    }
     std::string velocity(const fs::path&) const override { return solver_ == FlowSolver::su2 ? "Momentum" : "U"; }
     std::string command() const override { return "Allrun"; }
     void prepare(MeshCase& mesh_case) override { prepare_case(solver_, options_, mesh_case); }
@@ -191,7 +185,6 @@ public:
 
     void require_programs() const override { require_program(words_.front()); }
     std::vector<std::string> usual_fields() const override { return {"Mach", "Pressure"}; }
-    std::optional<double> usual_ratio() const override { return {}; }
     std::string velocity(const fs::path& folder) const override {
         const std::vector<std::string> fields = solution_fields(solution_in(folder));
         for (const char* name : {"Velocity", "U", "Momentum"})

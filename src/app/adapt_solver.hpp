@@ -35,8 +35,6 @@ public:
     virtual void require_programs() const = 0;
     /// Returns the fields whose errors ask for smaller triangles, where the user names none.
     virtual std::vector<std::string> usual_fields() const = 0;
-    /// Returns the largest ratio of the lengths of triangles beyond the layer that suits the solver; empty: isotropic ones.
-    virtual std::optional<double> usual_ratio() const = 0;
     /// Returns the name of the vectors of velocity, or momentum, in a case that was run; empty where it has none.
     virtual std::string velocity(const std::filesystem::path& folder) const = 0;
     /// Returns the command in words for people.

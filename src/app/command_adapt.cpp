@@ -24,7 +24,7 @@ namespace lamina::app {
 namespace {
 
 struct AdaptArguments {
-    std::string solver, folder, goal = "fields", turbulence, anisotropy;
+    std::string solver, folder, goal = "fields", turbulence, anisotropy = "none";
     std::vector<double> sequence;
     std::map<std::string, std::string> sizes;  ///< values by the names of option_table<SolutionSizeOptions>()
     AdaptSettings settings;
@@ -48,8 +48,7 @@ std::optional<AdjointGoal> goal_of(const AdaptArguments& arguments, const MeshCa
 }
 
 /// Returns the largest ratio of the lengths of triangles; nothing where they are isotropic.
-std::optional<double> ratio_of(const AdaptArguments& arguments, const AdaptSolver& solver) {
-    if (arguments.anisotropy.empty()) return solver.usual_ratio();
+std::optional<double> ratio_of(const AdaptArguments& arguments) {
     if (arguments.anisotropy == "none") return {};
     const std::string origin = "option --anisotropy";
     const double ratio = std::get<double>(value_of_text(OptionKind::number, {arguments.anisotropy}, origin));
@@ -87,7 +86,7 @@ void adapt(const AdaptArguments& arguments) {
     without_outputs.outputs.clear();
     for (const auto& [file, option] : files_beside_mesh) (without_outputs.*file).clear();
     const std::unique_ptr<AdaptSolver> solver = adapt_solver(arguments.solver, options);
-    settings.max_ratio = ratio_of(arguments, *solver);
+    settings.max_ratio = ratio_of(arguments);
     run_adapt(settings, without_outputs, *solver);
 }
 
@@ -157,8 +156,8 @@ void add_goal_options(CLI::App& command, AdaptArguments& arguments) {
     command
         .add_option("--anisotropy", arguments.anisotropy,
                     "largest ratio of the lengths of triangles beyond the layer, which are short where the fields "
-                    "bend; none: they "
-                    "are isotropic [su2: 1e6; else none]")
+                    "bend; none: they are isotropic")
+        ->capture_default_str()
         ->type_name("RATIO|none")
         ->group(group_of_adapt);
     add_table_option(command, option_table<SolverCaseOptions>(), "turbulence", arguments.turbulence)

@@ -172,10 +172,11 @@ void add_morph_command(CLI::App& app) {
     command
         ->add_option("--until", arguments->sequence.until,
                      "time at which the sequence ends; else the longest period or duration")
-        ->check(CLI::PositiveNumber)
+        ->needs("--sequence")
         ->type_name("TIME");
     command->add_option("--steps", arguments->sequence.steps, "number of times of the sequence after the first one")
         ->check(CLI::Range(1, 100'000))
+        ->needs("--sequence")
         ->capture_default_str()
         ->type_name("N");
     command->add_flag("--as-far-as-possible", arguments->morph.as_far_as_possible,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <filesystem>
 #include <span>
 #include <utility>
 
@@ -17,6 +18,7 @@ namespace lamina::app {
 namespace {
 
 constexpr std::string_view step_mark = "{step}";
+constexpr double latest = 1e100;  // time, as that of a duration
 
 Json morph_quality(const MorphQuality& quality) {
     return {{"min_angle", quality.min_angle_deg},
@@ -50,6 +52,8 @@ MorphResult morph_to(const MorphMap& map, std::span<const TurnInTime> turns, dou
     for (const TurnInTime& turn : turns) changes.push_back(turn_at(turn, time));
     try {
         return morph(map, moved_wall_points(map, changes), options);
+    } catch (const OptionError& error) {
+        throw OptionError("sequence", error.reason());
     } catch (const MeshError& error) {
         throw MeshError(fmt::format("at time {:.6g}: {}", time, error.what()), error.at());
     }
@@ -72,7 +76,8 @@ Json morph_json(const MorphResult& result, const MorphReport& report) {
 
 MorphSequence plan_sequence(const SequenceArguments& arguments, const std::string& output,
                             const WriteOptions& options) {
-    MorphSequence sequence{.options = options};
+    MorphSequence sequence;
+    sequence.options = options;
     double longest = 0;
     for (const std::string& text : arguments.turns) {
         try {
@@ -82,7 +87,9 @@ MorphSequence plan_sequence(const SequenceArguments& arguments, const std::strin
         }
         longest = std::max(longest, duration_of(sequence.turns.back()));
     }
-    sequence.times = times_up_to(arguments.until.value_or(longest), arguments.steps);
+    const double end = arguments.until.value_or(longest);
+    if (!(end > 0 && end <= latest)) throw OptionError("until", fmt::format("must be > 0 and <= {:g}", latest));
+    sequence.times = times_up_to(end, arguments.steps);
     if (output.find(step_mark) != std::string::npos) {
         sequence.meshes = files_of_steps(output, sequence.times.size());
         for (const std::string& file : sequence.meshes) {
@@ -92,7 +99,7 @@ MorphSequence plan_sequence(const SequenceArguments& arguments, const std::strin
         }
         return sequence;
     }
-    if (options.format.empty() && format_name(output).empty()) sequence.options.format = "openfoam";
+    if (options.format.empty() && !std::filesystem::path(output).has_extension()) sequence.options.format = "openfoam";
     if (format_name(output, sequence.options) != "openfoam")
         throw UsageError("option --output: a sequence needs {step} in the name of its files, or a folder for OpenFOAM");
     check_writable(output, sequence.options);
@@ -107,7 +114,7 @@ Json write_sequence(const MorphMap& map, const MorphSequence& sequence, const Mo
     std::vector<MorphResult> results;
     for (const double time : sequence.times) results.push_back(morph_to(map, sequence.turns, time, options));
     const Mesh& reference = map.reference();
-    if (!sequence.folder.empty()) write_moving_case(reference, sequence.folder);
+    if (!sequence.folder.empty()) write_moving_case(reference, sequence.times, sequence.folder);
     Json reports = Json::array();
     for (std::size_t i = 0; i < results.size(); ++i) {
         const double time = sequence.times[i];

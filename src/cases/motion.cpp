@@ -6,7 +6,10 @@
 #include <lamina/solver_case.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <set>
 #include <string>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -40,6 +43,17 @@ std::vector<SolverCaseFile> moving_case_files() {
 /// Returns the name of the folder of a time, as OpenFOAM gives it.
 std::string time_name(double time) { return fmt::format("{:.8g}", time); }
 
+/// Throws UsageError where a folder has times of another motion, which Allrun would take for those of this one.
+void require_no_other_times(std::span<const double> times, const fs::path& folder) {
+    std::set<std::string> names;
+    for (const double time : times) names.insert(time_name(time));
+    std::error_code missing;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, missing))
+        if (fs::exists(entry.path() / "displacement") && !names.contains(entry.path().filename().string()))
+            throw UsageError(fmt::format("{}: is the time of another motion: remove it, or name another folder",
+                                         entry.path().string()));
+}
+
 }  // namespace
 
 }  // namespace lamina::cases
@@ -48,12 +62,10 @@ namespace lamina {
 
 using namespace cases;
 
-void write_moving_case(const Mesh& reference, const fs::path& folder) {
-    const auto is_axis = [](const Marker& marker) {
-        return marker.kind == MarkerKind::symmetry && marker.name == io::axis_name;
-    };
-    if (std::any_of(reference.markers.begin(), reference.markers.end(), is_axis))
+void write_moving_case(const Mesh& reference, std::span<const double> times, const fs::path& folder) {
+    if (std::any_of(reference.markers.begin(), reference.markers.end(), io::is_axis<Marker>))
         throw UsageError("a case with a mesh that moves is that of a plane flow: the mesh has a marker 'axis'");
+    require_no_other_times(times, folder);
     write_mesh(reference, folder, {.format = mesh_format});
     for (const SolverCaseFile& file : moving_case_files()) {
         core::NewFolders folders;
@@ -64,6 +76,10 @@ void write_moving_case(const Mesh& reference, const fs::path& folder) {
 }
 
 void add_moved_points(const Mesh& reference, std::span<const Point> points, double time, const fs::path& folder) {
+    if (points.size() != reference.points.size())
+        throw InputError({},
+                         fmt::format("{} points for a mesh of {} vertices", points.size(), reference.points.size()));
+    if (!(time >= 0) || std::isinf(time)) throw InputError({}, fmt::format("{} is no time of a case", time));
     io::write_openfoam_time(reference, points, folder / time_name(time));
 }
 

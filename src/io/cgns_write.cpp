@@ -112,9 +112,7 @@ private:
     void write_base() {
         const bool in_space = extrusion_ != nullptr;
         require(cg_base_write(file_, "Base", in_space ? 3 : 2, in_space || variant_.three_coordinates ? 3 : 2, &base_));
-        const bool has_axis = std::any_of(boundary_.begin(), boundary_.end(), [](const BoundaryPart& part) {
-            return part.kind == MarkerKind::symmetry && part.name == axis_name;
-        });
+        const bool has_axis = std::any_of(boundary_.begin(), boundary_.end(), is_axis<BoundaryPart>);
         // CGNS knows an axis in two dimensions alone.
         if (has_axis && !in_space && !variant_.three_coordinates) {
             constexpr std::array<float, 2> origin{0, 0}, along{1, 0};

@@ -162,6 +162,8 @@ bool holds_fluent_mesh(const std::filesystem::path& file);
 inline constexpr const char* front_and_back = "frontAndBack";
 /// The marker of kind symmetry that lies on the axis y = 0 of an axisymmetric flow.
 inline constexpr std::string_view axis_name = "axis";
+/// Returns whether a marker, or a part of a boundary, lies on the axis of a body of revolution.
+bool is_axis(const auto& marker) { return marker.kind == MarkerKind::symmetry && marker.name == axis_name; }
 void check_openfoam_writable(const std::filesystem::path& file);
 /// Writes the folder and, for more than one part, the file of the parts beside it.
 void write_openfoam(const MeshView& mesh, const std::filesystem::path& file, const Extrusion& extrusion,

@@ -76,9 +76,7 @@ const char* patch_type(MarkerKind kind) {
 
 /// Returns the marker on the axis of a mesh round one, or null.
 const Marker* axis_of(const MeshView& mesh) {
-    const auto axis = std::find_if(mesh.markers.begin(), mesh.markers.end(), [](const Marker& marker) {
-        return marker.kind == MarkerKind::symmetry && marker.name == axis_name;
-    });
+    const auto axis = std::find_if(mesh.markers.begin(), mesh.markers.end(), is_axis<Marker>);
     return axis == mesh.markers.end() ? nullptr : &*axis;
 }
 
@@ -461,7 +459,6 @@ std::vector<fs::path> openfoam_time_files(const fs::path& folder) {
 }
 
 void write_openfoam_time(const MeshView& reference, std::span<const Point> points, const fs::path& folder) {
-    assert(points.size() == reference.points.size());
     const std::vector<double> heights = heights_of({});
     const std::vector<fs::path> files = openfoam_time_files(folder);
     core::NewFolders folders;

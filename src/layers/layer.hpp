@@ -39,8 +39,7 @@ struct BorderOptions {
     /// cell of the grid on a resampled wall: a point on the top of a flat one makes an angle near 180 degrees.
     double gradation = 0.1;
     double max_edge = HUGE_VAL;  ///< largest length of an edge, in units of the input
-    /// No edge is longer than size + gradation x distance of any of these sources. An edge may exceed that by up to a
-    /// tenth, since division points shift towards the lengths beside them.
+    /// No edge is longer than size + gradation x distance of any of these sources.
     std::vector<SizeSource> sources{};
 };
 

@@ -108,15 +108,16 @@ MorphResult move_by(const MorphMap& map, std::span<const Point> wall) {
 /// map can do has cells that nearly turn over, which would stop the next map. `result` is that of the first map.
 ///
 /// A slat of a high-lift section moved across its slot by 2 % of the chord, up or down, takes 2 and 3 maps where one goes
-/// 58 % and 66 % of the way; a flap turned by 10 degrees, whose slot closes to 44 %, takes 6 for 66 %. A map that gets
-/// less than a quarter of what is left meets walls that do.
+/// 58 % and 66 % of the way; a flap turned by 10 degrees, whose slot closes to 44 %, takes 6 for 66 %. A map that
+/// advances by less than a quarter of what the one before did meets walls that do; 64ths of the motion would take too many.
 void go_on_by_further_maps(const MorphMap& first, std::span<const Point> wall, MorphResult& result) {
-    constexpr double least_reach = 0.25, share_of_reach = 0.5;
+    constexpr double least_advance = 0.25, least_share = 1. / 64, share_of_reach = 0.5;
     const MorphMap* map = &first;
     std::unique_ptr<const Mesh> mesh;
     std::optional<MorphMap> further;
-    double made = 0, reach = result.fraction;
-    while (result.stop && reach >= least_reach) {
+    double made = 0, reach = result.fraction;                    // reach: a share of what is left
+    double advance = result.fraction, advance_before = advance;  // shares of the whole
+    while (result.stop && advance >= least_share && advance >= least_advance * advance_before) {
         auto next = std::make_unique<Mesh>(first.reference());
         next->points = map->positions(part_of_way(map->wall_points(), wall, share_of_reach * reach));
         if (find_turned_cell(*next, next->points) != no_cell) return;
@@ -126,7 +127,8 @@ void go_on_by_further_maps(const MorphMap& first, std::span<const Point> wall, M
         map = &*further;
         MorphResult rest = move_by(*map, wall);
         reach = rest.fraction;
-        result = {std::move(rest.points), made + (1 - made) * reach, std::move(rest.stop), result.maps + 1};
+        advance_before = std::exchange(advance, (1 - made) * reach);
+        result = {std::move(rest.points), made + advance, std::move(rest.stop), result.maps + 1};
     }
 }
 

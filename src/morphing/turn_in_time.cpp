@@ -1,6 +1,7 @@
 // Turns of elements as functions of time.
 #include <lamina/morph.hpp>
 
+#include <cmath>
 #include <cstddef>
 #include <variant>
 
@@ -16,11 +17,17 @@ namespace {
 constexpr const char* turn_grammar =
     "a turn in time is ELEMENT:pitch:MEAN:AMPLITUDE:FREQUENCY[:X,Y] or ELEMENT:deflect:DEG:DURATION[:X,Y]";
 
-/// Returns the positive number of a text.
+/// Returns the time or the frequency of a text.
 double positive_number(const std::string& text) {
     const double number = core::parse_number(text);
-    core::require_text(number > 0, text, "must be > 0");
+    core::require_text(number >= 1e-100 && number <= 1e100, text, "must be from 1e-100 to 1e100");
     return number;
+}
+
+double parse_angle(const std::string& text) {
+    const double angle = core::parse_number(text);
+    core::require_text(std::abs(angle) <= 180, text, "must be from -180 to 180");
+    return angle;
 }
 
 Point parse_center(const std::string& text) {
@@ -40,7 +47,8 @@ struct AngleOfCourse {
     double time;
 
     double operator()(const Pitching& pitching) const {
-        const double phase = 2 * core::pi * pitching.frequency * time;
+        const double turns = pitching.frequency * time;
+        const double phase = 2 * core::pi * (turns - std::floor(turns));
         return pitching.mean_deg + pitching.amplitude_deg * core::sin_reproducible(phase);
     }
     double operator()(const Deflecting& deflecting) const {
@@ -64,9 +72,9 @@ TurnInTime parse_turn_in_time(const std::string& text) {
     TurnInTime turn;
     turn.element = parts[0];
     if (parts[1] == "pitch" && (n == 5 || n == 6))
-        turn.course = Pitching{core::parse_number(parts[2]), core::parse_number(parts[3]), positive_number(parts[4])};
+        turn.course = Pitching{parse_angle(parts[2]), parse_angle(parts[3]), positive_number(parts[4])};
     else if (parts[1] == "deflect" && (n == 4 || n == 5))
-        turn.course = Deflecting{core::parse_number(parts[2]), positive_number(parts[3])};
+        turn.course = Deflecting{parse_angle(parts[2]), positive_number(parts[3])};
     else
         throw UsageError(turn_grammar);
     if (n == (parts[1] == "pitch" ? 6 : 5)) turn.center = parse_center(parts.back());

@@ -104,6 +104,10 @@ TEST(MorphCommand, WritesMovingCasesOfOpenFoam) {
                                std::filesystem::copy_options::overwrite_existing);
     const Mesh after = read_mesh(folder / "moving"), expected = read_mesh(folder / "turned.vtu");
     EXPECT_EQ(after.points, expected.points);
+    // Times of another motion would count as this one's.
+    expect_refused(folder,
+                   {"morph", "mesh.vtu", "--sequence", "airfoil:deflect:5:2:0.25,0", "--steps", "3", "-o", "moving"},
+                   usage, "is the time of another motion");
     // The displacements, of which each vertex has one on either side.
     std::istringstream text(folder.read("moving/3/displacement"));
     std::string line;
@@ -128,7 +132,16 @@ TEST(MorphCommand, RefusesSequencesThatItCannotWrite) {
     };
     refused("airfoil:pitch:0:5:1", "one.vtu", usage, "{step}");
     refused("airfoil:pitch:0:5", "{step}.vtu", usage, "option --sequence: a turn in time is");
-    refused("flap:pitch:0:5:1", "{step}.vtu", usage, "flap");
+    refused("flap:pitch:0:5:1", "{step}.vtu", usage, "option --sequence: element 'flap'");
+    refused("all:pitch:0:1e9:1", "{step}.vtu", usage, "must be from -180 to 180");
+    refused("all:pitch:0:5:1e-320", "{step}.vtu", usage, "must be from 1e-100 to 1e100");
+    refused("all:pitch:0:5:1", "no/folder.vtk", usage, "option --output");
+    for (const char* until : {"nan", "0", "1e300"})
+        expect_refused(folder,
+                       {"morph", "mesh.vtu", "--sequence", "all:pitch:0:5:1", "--until", until, "-o", "{step}.vtu"},
+                       usage, "--until");
+    expect_refused(folder, {"morph", "mesh.vtu", "--transform", "all:shift:0,0", "--steps", "3", "-o", "new.vtu"},
+                   usage, "--sequence");
     refused("airfoil:deflect:170:1", "{step}.vtu", mesh_failed, "at time 1: the motion can be made to");
     expect_refused(folder, {"morph", "mesh.vtu", "--sequence", "all:pitch:0:5:1", "--to", "naca:0012", "-o", "new.vtu"},
                    usage, "give --to");

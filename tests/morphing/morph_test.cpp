@@ -178,6 +178,9 @@ TEST(Morph, GoesOnByFurtherMaps) {
     EXPECT_GT(result.maps, 1);
     expect_valid(map, result.points);
     for (std::size_t i = 0; i < wall.size(); ++i) EXPECT_EQ(result.points[map.walls().vertex[i].index()], wall[i]);
+    // A long way is made of short ones.
+    const std::vector<Point> far = moved_wall_points(map, std::vector{parse_transformation("flap:shift:0.3,-0.6")});
+    EXPECT_EQ(morph(map, far, {.incremental = true}).fraction, 1);
     // Where bodies meet no number of maps gets through.
     const std::vector<Point> into = moved_wall_points(map, std::vector{parse_transformation("flap:shift:-0.2,0.03")});
     EXPECT_THROW(morph(map, into, {.incremental = true}), MeshError);

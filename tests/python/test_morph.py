@@ -114,7 +114,7 @@ def test_derivative_by_parameters(moving, reference, name, step):
     for _ in range(3):
         direction = rng.normal(size=at.shape)
         exact = shape.jacobian_vector(at, direction)
-        # The place of the camber's maximum is a kink for vertices near it.
+        # The second derivative by the place of the camber's maximum jumps there.
         if name == "naca":
             direction[2] = 0
             exact = shape.jacobian_vector(at, direction)
@@ -123,6 +123,17 @@ def test_derivative_by_parameters(moving, reference, name, step):
         by = shape.vector_jacobian(at, gradient)
         scale = np.linalg.norm(gradient) * np.linalg.norm(exact)
         assert abs(np.sum(gradient * exact) - by @ direction) < 1e-12 * scale
+
+
+def test_derivative_by_place_of_camber(moving):
+    shape = lamina.naca_shape(moving)
+    at, along, step = np.array([0.12, 0.02, 0.4]), np.array([0, 0, 1.0]), 1e-4
+    exact = shape.jacobian_vector(at, along)
+    central = (shape.positions(at + step * along) - shape.positions(at - step * along)) / (2 * step)
+    assert np.abs(exact - central).max() < 1e-6 and np.abs(exact).max() > 1e-3
+    for place in (0, 1, -0.2, float("nan")):
+        with pytest.raises(lamina.InputError):
+            shape.wall([0.12, 0.02, place])
 
 
 def test_shapes_by_parameters(moving, reference):
