@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import fields
 from typing import Any
 
@@ -12,9 +12,16 @@ from ._errors import InputError, WrongTypeError
 
 
 def _equal(one: Any, other: Any) -> bool:
+    """Whether two values are equal. They may hold arrays, and errors, which Python compares by identity."""
     if isinstance(one, np.ndarray) or isinstance(other, np.ndarray):
         one, other = np.asarray(one), np.asarray(other)
         return np.array_equal(one, other, equal_nan=one.dtype.kind == other.dtype.kind == "f")
+    if isinstance(one, BaseException) and type(one) is type(other):
+        return _equal(one.args, other.args) and _equal(one.__dict__, other.__dict__)
+    if isinstance(one, Mapping) and isinstance(other, Mapping):
+        return one.keys() == other.keys() and all(_equal(value, other[key]) for key, value in one.items())
+    if isinstance(one, (list, tuple)) and type(one) is type(other):
+        return len(one) == len(other) and all(map(_equal, one, other))
     return bool(one == other)
 
 
@@ -23,6 +30,10 @@ def _short(value: Any) -> str:
         return "x".join(map(str, value.shape)) + f" {value.dtype}"
     if isinstance(value, (list, tuple, dict)) and len(value) > 4:
         return f"{len(value)} entries"
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{key!r}: {_short(entry)}" for key, entry in value.items()) + "}"
+    if isinstance(value, (list, tuple)):
+        return ("[{}]" if isinstance(value, list) else "({})").format(", ".join(map(_short, value)))
     if isinstance(value, Values):
         return f"{type(value).__name__}(...)"
     return " ".join(repr(value).split())
@@ -51,30 +62,51 @@ class Values:
 def coordinates_of(value: Any) -> Any:
     """Returns what holds the coordinates of an object of another package: shapely's polygons and lines, sections of
     AeroSandbox and pymead, data frames; and the rows of a generator. Others are returned as they are."""
-    if len(getattr(value, "interiors", ())):
-        raise InputError("a polygon with holes is no section: mesh its exterior, or triangulate its rings")
-    for name in ("exterior", "coords", "coordinates"):  # shapely's rings have coords, polygons an exterior
-        if hasattr(value, name):
-            return coordinates_of(getattr(value, name))
-    if hasattr(value, "get_coords_selig_format"):
-        return value.get_coords_selig_format()
+    # Columns of data frames, and what labelled arrays say of their axes, may have the names below.
     if hasattr(value, "to_numpy"):
         return value.to_numpy()
+    if hasattr(value, "__array__"):
+        return value
+    if len(_attribute(value, "interiors") or ()):
+        raise InputError("a polygon with holes is no section: mesh its exterior, or triangulate its rings")
+    for name in ("exterior", "coords", "coordinates"):  # shapely's rings have coords, polygons an exterior
+        held = _attribute(value, name)
+        if held is not None:
+            return coordinates_of(held)
+    if hasattr(value, "get_coords_selig_format"):
+        return value.get_coords_selig_format()
     return list(value) if isinstance(value, Iterator) else value
+
+
+def _attribute(value: Any, name: str) -> Any:
+    """Returns an attribute; None where there is none. Those of shapely's collections are there, and cannot be read."""
+    try:
+        return getattr(value, name, None)
+    except NotImplementedError:
+        return None
+
+
+def _shown(value: Any) -> str:
+    """Returns the type of an argument, and the value of those that are short."""
+    name = type(value).__name__
+    return name if isinstance(value, (list, tuple, dict, np.ndarray)) else f"{name} {value!r:.40}"
 
 
 def _numbers(points: Any, name: str) -> np.ndarray:
     """Returns an array of doubles. Raises WrongTypeError for what holds no numbers."""
-    given = points if type(points) in (np.ndarray, list, tuple) else coordinates_of(points)
+    array = doubles(points if type(points) in (np.ndarray, list, tuple) else coordinates_of(points), name,
+                    "an (n, 2) array of numbers")
+    if array.ndim == 0:
+        raise WrongTypeError(f"{name} must be an (n, 2) array of numbers, not {_shown(points)}")
+    return array
+
+
+def doubles(values: Any, name: str, wanted: str = "numbers") -> np.ndarray:
+    """Returns an array of doubles of any shape. Raises WrongTypeError for what holds no numbers."""
     try:
-        array = np.asarray(given, dtype=np.float64, order="C")
-        if array.ndim > 0:
-            return array
-        reason = ""
+        return np.asarray(values, dtype=np.float64, order="C")
     except (TypeError, ValueError) as error:
-        reason = f": {error}"
-    shown = f"{type(points).__name__} {points!r:.40}" if np.ndim(given) == 0 else type(points).__name__
-    raise WrongTypeError(f"{name} must be an (n, 2) array of numbers, not {shown}{reason}")
+        raise WrongTypeError(f"{name} must be {wanted}, not {_shown(values)}: {error}") from None
 
 
 def points_array(points: Any, name: str = "points") -> np.ndarray:
@@ -95,12 +127,15 @@ def queries_array(points: Any) -> tuple[np.ndarray, bool]:
 
 def index_array(indices: Any, columns: int, name: str) -> np.ndarray:
     """Returns an (n, columns) array of 32-bit indices, or (n,) for columns = 1."""
-    array = np.asarray(list(indices) if isinstance(indices, Iterator) else indices)
+    try:
+        array = np.asarray(list(indices) if isinstance(indices, Iterator) else indices)
+    except ValueError as error:  # rows of different lengths
+        raise WrongTypeError(f"{name} must be whole numbers, not {_shown(indices)}: {error}") from None
     if array.size == 0:
         return np.empty((0, columns) if columns > 1 else (0,), dtype=np.uint32)
     if array.dtype.kind not in "ui":
         if array.dtype.kind in "OU":
-            raise WrongTypeError(f"{name} must be whole numbers, not {type(indices).__name__} {indices!r:.40}")
+            raise WrongTypeError(f"{name} must be whole numbers, not {_shown(indices)}")
         raise InputError(f"{name} must be whole numbers, not {array.dtype}")
     if (columns > 1 and (array.ndim != 2 or array.shape[1] != columns)) or (columns == 1 and array.ndim != 1):
         wanted = f"(n, {columns})" if columns > 1 else "(n,)"

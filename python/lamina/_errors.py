@@ -114,8 +114,10 @@ def io_error(message: str, file: str, reason: str) -> IoError:
 
 
 def in_python(text: str) -> str:
-    """Returns a message with the names of options as Python has them: "layer_topology", not "--layer-topology"."""
-    return re.sub(r"(?:\boption )?(?<![\w-])--([a-z][a-z0-9]*(?:-[a-z0-9]+)*)", lambda m: m[1].replace("-", "_"), text)
+    """Returns a message with the names of options as Python has them: "layer_topology", not "--layer-topology". Names of
+    files may look like options, but have a folder before or an extension behind."""
+    option = r"(?:\boption )?(?<![\w/\\.-])--([a-z][a-z0-9]*(?:-[a-z0-9]+)*)(?!\w|[-/\\.]\w)"
+    return re.sub(option, lambda m: m[1].replace("-", "_"), text)
 
 
 class MeshWarning(UserWarning):

@@ -20,11 +20,18 @@ Sections = Union[Section, Sequence[Section], Mapping[str, Section]]
 
 def _is_points(value: Any) -> bool:
     """Whether the value is an array of coordinates, or rows of two numbers."""
-    if isinstance(value, np.ndarray):
+    if hasattr(value, "__array__"):
         return True
-    return (isinstance(value, Sequence) and not isinstance(value, str) and len(value) > 0
-            and all(not isinstance(row, (str, Mapping)) and np.shape(row) == (2,)
-                    and all(np.isscalar(x) and not isinstance(x, str) for x in row) for row in value))
+    return isinstance(value, Sequence) and not isinstance(value, str) and len(value) > 0 and all(map(_is_point, value))
+
+
+def _is_point(row: Any) -> bool:
+    if isinstance(row, (str, Mapping)):
+        return False
+    try:
+        return np.shape(row) == (2,) and all(np.isscalar(x) and not isinstance(x, str) for x in row)
+    except ValueError:  # its entries have different lengths
+        return False
 
 
 def _section(value: Any, name: str) -> str | tuple[str, np.ndarray]:

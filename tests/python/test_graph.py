@@ -185,6 +185,11 @@ def make_objects():
     yield check.isotropic
     yield lamina.remesh(mesh, np.full(len(mesh.points), 0.5))
     yield lamina.BatchResult("name", {"alpha": 1}, mesh, None, 1.0)
+    (failed,) = lamina.batch(["no.dat"])
+    yield dataclasses.replace(failed, options={"background": (points, t.triangles, np.ones(30))}, seconds=1.0)
+    flow = lamina.flow("naca:0012", alpha=15, reynolds=1e5)
+    assert flow.warnings
+    yield flow
 
 
 @pytest.fixture(scope="module")
@@ -192,7 +197,7 @@ def objects():
     return [list(make_objects()) for _ in range(2)]
 
 
-@pytest.mark.parametrize("number", range(9))
+@pytest.mark.parametrize("number", range(11))
 def test_objects_are_values(number, objects):
     one, other = (made[number] for made in objects)
     assert one == other and hash(one) == hash(other) and one == copy.deepcopy(one)

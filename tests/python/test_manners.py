@@ -38,10 +38,20 @@ def test_wrong_types_are_named(wrong):
             call(wrong)
         assert isinstance(caught.value, lamina.Error)
         assert re.search("int|NoneType|float|object", str(caught.value))
+    with pytest.raises(lamina.InputError, match="shape"):
+        lamina.mesh([[0, 0], [1, [2]], [1, 1]])
     with pytest.raises(TypeError, match="str 'points'"):
         lamina.delaunay("points")
     with pytest.raises(TypeError, match="progress"):
         lamina.mesh("naca:0012", progress=3)
+
+
+@pytest.mark.parametrize("call", [
+    lambda t, mesh: lamina.delaunay([[0, 0], [1]]),
+    lambda t, mesh: lamina.constrained_delaunay(t.points, [[0, 1], [2]])])
+def test_errors_of_wrong_types_are_of_lamina(call, square, small):
+    with pytest.raises(lamina.WrongTypeError):
+        call(square, small)
 
 
 class Foil:
@@ -72,6 +82,48 @@ def test_sections_of_other_packages():
         lamina.mesh(type("Polygon", (), {"exterior": ring, "interiors": [ring]})())
 
 
+class Labelled:
+    """An array whose axes have names, as those of xarray; they are no coordinates of points."""
+
+    def __init__(self, values):
+        self.values, self.coords, self.interiors = values, {"point": range(len(values))}, [3]
+
+    def __array__(self, dtype=None, copy=None):
+        return np.array(self.values, dtype=dtype)
+
+
+class LabelledFrame(Labelled):
+    __array__ = None
+
+    def to_numpy(self):
+        return self.values
+
+
+class Collection:
+    """Polygons of shapely."""
+
+    def __init__(self, geoms):
+        self.geoms = geoms
+
+    @property
+    def coords(self):
+        raise NotImplementedError("Multi-part geometries do not provide a coordinate sequence")
+
+
+@pytest.mark.parametrize("kind", [Labelled, LabelledFrame])
+def test_arrays_are_taken_as_such(kind):
+    section = lamina.naca("2412", 60)
+    assert np.array_equal(lamina.delaunay(kind(section[:-1])).points, section[:-1])
+    assert np.array_equal(*(outline for given in (kind(section), section) for outline in lamina.outlines(given).values()))
+
+
+def test_collections_are_no_points():
+    section = lamina.naca("2412", 60)
+    assert len(lamina.outlines(Collection([Foil("exterior", Foil("coords", section + [2 * i, 0])) for i in (0, 1)]))) == 2
+    with pytest.raises(lamina.WrongTypeError):
+        lamina.delaunay(Collection([]))
+
+
 def test_shapely_and_pandas():
     shapely, pandas = pytest.importorskip("shapely"), pytest.importorskip("pandas")
     section = lamina.naca("0012", 60)
@@ -94,6 +146,15 @@ def test_names_of_options_in_messages():
         messages.append(str(error.value))
     assert len(messages) > 4
     assert not [text for text in messages if re.search(r"(^|\s)--\w", text)]
+
+
+def test_names_of_files_in_messages(tmp_path, monkeypatch):
+    (tmp_path / "--layer-topology.dat").write_text("no section\n")
+    monkeypatch.chdir(tmp_path)
+    for path in (tmp_path / "--layer-topology.dat", "--layer-topology.dat"):
+        with pytest.raises(lamina.InputError) as error:
+            lamina.mesh(path)
+        assert str(path) in str(error.value) and error.value.file == str(path)
 
 
 class Bar:
