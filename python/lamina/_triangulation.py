@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _lamina
-from ._arrays import Values, immutable, index_array, points_array, queries_array
-from ._errors import InputError, OptionError
+from ._arrays import Values, doubles, immutable, index_array, points_array, queries_array
+from ._errors import InputError, OptionError, UsageError
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -175,14 +175,15 @@ class Triangulation:
         for others)."""
         if method not in ("linear", "sibson"):
             raise OptionError(f"method: '{method}' is neither 'linear' nor 'sibson'")
-        numbers = np.asarray(values, dtype=np.float64)
+        numbers = doubles(values, "values")
         if numbers.ndim == 0 or len(numbers) != len(self.points):
             raise InputError(f"values must have the shape ({len(self.points)}, ...), one for each point, not "
                              f"{numbers.shape}")
         ask = self._index.linear if method == "linear" else self._index.sibson
         queries, is_one = queries_array(points)
-        columns = numbers.reshape(len(numbers), -1).T
-        found = np.stack([ask(np.ascontiguousarray(column), queries) for column in columns], axis=1)
+        found = np.empty((len(queries), math.prod(numbers.shape[1:])))
+        for k, column in enumerate(numbers.reshape(len(numbers), found.shape[1]).T):
+            found[:, k] = ask(np.ascontiguousarray(column), queries)
         values_there = found.reshape(len(queries), *numbers.shape[1:])
         if not is_one:
             return values_there
@@ -280,8 +281,10 @@ _AREA_RATIO = 1.1
 
 
 def _size_for_area(area: float, max_area_ratio: float) -> float:
-    """Returns the size whose triangles have at most this area; unbounded unless it is positive."""
-    return math.sqrt(area / (max_area_ratio * 0.25 * math.sqrt(3))) if area > 0 else math.inf
+    """Returns the size whose triangles have at most this area; unbounded unless it is positive. Ratios that are not are
+    left to the C++ part, which refuses them."""
+    bounded = area > 0 and max_area_ratio > 0
+    return math.sqrt(area / (max_area_ratio * 0.25 * math.sqrt(3))) if bounded else math.inf
 
 
 def refine(triangulation: Triangulation, size: Any = math.inf, *, gradation: float = 0.1,
@@ -294,7 +297,7 @@ def refine(triangulation: Triangulation, size: Any = math.inf, *, gradation: flo
     size: the edge length that is wanted, in units of the input. A number; an array with one size for each point of the
     triangulation; a background (points, triangles, sizes) whose sizes are linear in its triangles; or a function of an
     (n, 2) array of points that returns n sizes. A function is sampled on squares that are divided until they are four
-    edges wide, which is slow: a sample costs more than a triangle. Infinite: angles and areas alone count.
+    edges wide, which is slow: a sample costs more than a triangle. The number may be infinite: angles and areas alone count.
     gradation: growth of the edge length per unit of distance from places that ask for less.
     min_angle: smallest angle of a triangle, in degrees, up to 33; None: 20.7, up to which the end is proved. Corners of
     the input below 60 degrees may hold smaller ones (`stats["exempt"]`).
@@ -302,23 +305,25 @@ def refine(triangulation: Triangulation, size: Any = math.inf, *, gradation: flo
     smoothing: how often all vertices move to the means of their neighbours.
     max_triangles: a refinement that needs more, by estimate, raises LimitError before the work.
     max_area: largest area of a triangle: a number, or one for each triangle of the triangulation, of which those that are
-    not positive are no bound.
+    not positive are no bound; these do not go with regions (UsageError).
     max_area_ratio: largest area over that of the equilateral triangle of the wanted edge; None: 1.1 where areas have
     bounds, else 1.7.
     regions: (x, y, area) for each: a point in a region that segments bound, and its largest area, which replaces `size`
-    there; 0: no bound. `regions` of the result says which triangle lies in which.
+    there; 0: no bound but `max_area`, which holds in all regions. `regions` of the result says which triangle lies in which.
     conforming: segments are split until all triangles are Delaunay, and not only constrained Delaunay.
     """
     t = triangulation
     bounds_areas = max_area is not None or any(area > 0 for _, _, area in regions)
     ratio = max_area_ratio if max_area_ratio is not None else _AREA_RATIO if bounds_areas else None
-    areas = None if max_area is None or np.ndim(max_area) == 0 else _areas_array(max_area, len(t.triangles))
-    if max_area is not None and areas is None:
-        if not float(max_area) > 0:  # type: ignore[arg-type]
-            raise OptionError(f"max_area: must be positive, not {max_area}")
-        size = _smaller_size(size, _size_for_area(float(max_area), ratio or _AREA_RATIO))  # type: ignore[arg-type]
+    areas, everywhere = _area_bounds(max_area, len(t.triangles))
+    if areas is not None and len(regions):
+        raise UsageError("max_area: give one number with regions, and not one for each triangle")
+    largest_size = _size_for_area(everywhere, ratio or _AREA_RATIO)
+    if largest_size < math.inf:
+        size = _smaller_size(size, largest_size)
     seeds = points_array([(x, y) for x, y, _ in regions], "regions")
-    sizes = np.array([_size_for_area(area, ratio or _AREA_RATIO) for _, _, area in regions], dtype=np.float64)
+    sizes = np.array([min(_size_for_area(area, ratio or _AREA_RATIO), largest_size) for _, _, area in regions],
+                     dtype=np.float64)
     bound = _lamina.proved_min_angle if min_angle is None else min_angle
     steiner, triangles, edges, parents, stats, of_region = _lamina.refine(
         t.points, t.triangles, t.segments, t.parents, _size_argument(t, size, gradation), float(gradation),
@@ -336,16 +341,21 @@ def _smaller_size(size: Any, other: float) -> Any:
     if callable(size):
         return lambda points: np.minimum(size(points), other)
     if isinstance(size, tuple):
-        return size[0], size[1], np.minimum(size[2], other)
-    return np.minimum(size, other)
+        return size[0], size[1], np.minimum(doubles(size[2], "sizes"), other)
+    return np.minimum(doubles(size, "size"), other)
 
 
-def _areas_array(areas: ArrayLike, count: int) -> np.ndarray:
-    array = np.ascontiguousarray(areas, dtype=np.float64)
-    if array.shape != (count,):
+def _area_bounds(max_area: Any, count: int) -> tuple[np.ndarray | None, float]:
+    """Returns the largest area of each triangle, if they have their own, and else that of all of them; 0: no bound."""
+    if max_area is None:
+        return None, 0.0
+    array = doubles(max_area, "max_area")
+    if array.ndim == 0 and not array > 0:
+        raise OptionError(f"max_area: must be positive, not {max_area}")
+    if array.ndim > 0 and array.shape != (count,):
         raise InputError(f"max_area must be a number or have the shape ({count},), one for each triangle, not "
                          f"{array.shape}")
-    return array
+    return (array, 0.0) if array.ndim > 0 else (None, float(array))
 
 
 def _joined(points: np.ndarray, steiner: np.ndarray) -> np.ndarray:
@@ -353,7 +363,7 @@ def _joined(points: np.ndarray, steiner: np.ndarray) -> np.ndarray:
 
 
 def _sizes_array(sizes: Any, count: int) -> np.ndarray:
-    array = np.ascontiguousarray(sizes, dtype=np.float64)
+    array = doubles(sizes, "sizes")
     if array.shape != (count,):
         raise InputError(f"sizes must have the shape ({count},), one for each point, not {array.shape}")
     if not np.all(np.isfinite(array) & (array > 0)):
@@ -368,9 +378,8 @@ def _size_argument(t: Triangulation, size: Any, gradation: float) -> Any:
         points, triangles, sizes = size
         background = points_array(points, "background points")
         return background, index_array(triangles, 3, "background triangles"), _sizes_array(sizes, len(background))
-    if np.ndim(size) == 0:
-        return float(size)
-    return t.points, t.triangles, _sizes_array(size, len(t.points))
+    array = doubles(size, "size")
+    return float(array) if array.ndim == 0 else (t.points, t.triangles, _sizes_array(array, len(t.points)))
 
 
 #: A square is divided while its side exceeds this many edges.

@@ -48,7 +48,9 @@ def test_wrong_types_are_named(wrong):
 
 @pytest.mark.parametrize("call", [
     lambda t, mesh: lamina.delaunay([[0, 0], [1]]),
-    lambda t, mesh: lamina.constrained_delaunay(t.points, [[0, 1], [2]])])
+    lambda t, mesh: lamina.constrained_delaunay(t.points, [[0, 1], [2]]), lambda t, mesh: lamina.refine(t, max_area="x"),
+    lambda t, mesh: lamina.refine(t, "x", max_area=1), lambda t, mesh: lamina.refine(t, "x"),
+    lambda t, mesh: t.interpolate(["x"] * 4, [0.5, 0.5])])
 def test_errors_of_wrong_types_are_of_lamina(call, square, small):
     with pytest.raises(lamina.WrongTypeError):
         call(square, small)
@@ -194,6 +196,7 @@ def test_points_and_values_of_any_shape(square):
     assert t.interpolate(tensors, [[0.2, 0.3], [9, 9]]).shape == (2, 2, 2)
     assert t.interpolate(t.points[:, 0], [0.25, 0.5]) == pytest.approx(0.25)
     assert isinstance(lamina.delaunay(t.points).nearest([0, 0]), int)
+    assert t.interpolate(np.empty((len(t.points), 0)), [[0.2, 0.3], [9, 9]]).shape == (2, 0)
 
 
 def test_refinement_to_areas(square):
@@ -208,6 +211,8 @@ def test_refinement_to_areas(square):
     for wrong in (0, -1, np.ones(3)):
         with pytest.raises(ValueError, match="max_area"):
             lamina.refine(t, max_area=wrong)
+    with pytest.raises(lamina.OptionError, match="max_area_ratio"):
+        lamina.refine(square, max_area=0.1, max_area_ratio=-1)
 
 
 def test_regions(square):
@@ -217,6 +222,15 @@ def test_regions(square):
     assert ((centres[:, 0] > centres[:, 1]) == (t.regions == 0)).all() and set(t.regions) == {0, 1}
     assert (t.regions == 0).sum() > 5 * (t.regions == 1).sum()
     assert np.array_equal(pickle.loads(pickle.dumps(t)).regions, t.regions) and len(halved.regions) == 0
+
+
+def test_regions_keep_the_bound_of_all_areas(square):
+    for area in (0, 0.1, 0.001):
+        t = lamina.refine(square, max_area=0.01, regions=[(0.5, 0.4, area)])
+        (ax, ay), (bx, by) = (t.points[t.triangles[:, k]].T - t.points[t.triangles[:, 0]].T for k in (1, 2))
+        assert 0.5 * (ax * by - ay * bx).max() <= min(0.01, area or 1)
+    with pytest.raises(lamina.UsageError, match="max_area"):
+        lamina.refine(square, max_area=np.full(2, 0.01), regions=[(0.5, 0.4, 0)])
 
 
 def test_conforming(generator):

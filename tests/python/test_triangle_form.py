@@ -72,6 +72,33 @@ def test_refinement_of_a_result():
     finer = triangulate(coarse, "prqa")
     assert measures(finer)[0].max() <= 0.02 and set(finer["segment_markers"].ravel()) == {1, 2, 3, 4, 5}
     assert len(finer["triangles"]) > 3 * len(coarse["triangles"])
+    # Regions give attributes alone here.
+    coarse = triangulate(given("regions"), "pqAa")
+    coarse["triangle_max_area"] = np.full((len(coarse["triangles"]), 1), 0.01)
+    finer = triangulate(coarse, "prqaA")
+    left = finer["vertices"][finer["triangles"]].mean(axis=1)[:, 0] < 2.025
+    assert measures(finer)[0].max() <= 0.01 and np.array_equal(finer["triangle_attributes"].ravel(), np.where(left, 3, 4))
+
+
+def test_areas_of_all_and_of_regions():
+    area, _ = measures(result := triangulate(given("regions"), "pqAa0.1a"))
+    number = result["triangle_attributes"].ravel()
+    assert area[number == 3].max() <= 0.05 and 0.05 < area[number == 4].max() <= 0.1
+    result = triangulate(given("hole"), "pqaa.05")
+    assert measures(result)[0].max() <= 0.05
+
+
+def test_attributes_where_segments_cross():
+    square = {"vertices": [[0, 0], [1, 0], [1, 1], [0, 1]], "segments": [[0, 2], [1, 3], [0, 1], [1, 2], [2, 3], [3, 0]],
+              "vertex_attributes": np.column_stack([np.full(4, 10.0), [0, 1, 3, 2]])}
+    for switches in ("p", "pqa0.02", "pqa0.02o2"):
+        result = triangulate(square, switches)
+        values = result["vertex_attributes"]
+        assert len(values) == len(result["vertices"]) > 4 and np.allclose(values[:, 0], 10, atol=1e-7)
+        assert np.allclose(values[:, 1], result["vertices"] @ [1, 2], atol=1e-7)
+    # All triangles are reached from outside, or from the hole.
+    assert np.allclose(triangulate({**square, "segments": [[0, 2], [1, 3]]}, "p")["vertex_attributes"][:, 0], 10)
+    assert np.allclose(triangulate({**square, "holes": [[0.5, 0.1], [0.5, 0.9]]}, "p")["vertex_attributes"][:, 0], 10)
 
 
 def test_quadratic_nodes_are_opposite_of_corners():
@@ -89,7 +116,22 @@ def test_unused_points_are_dropped():
     assert len(dropped["vertices"]) == 3 and dropped["triangles"].max() == 2
 
 
-@pytest.mark.parametrize("switches", ["u", "k", "p3", "q20w", "%"])
+def test_quadratic_nodes_have_the_markers_of_their_edges():
+    outline = {**given("hole"), "vertices": [*given("hole")["vertices"], [1.4, 1.6]], "vertex_markers": np.zeros(9, int)}
+    outline["vertex_attributes"] = np.array(outline["vertices"])
+    whole = triangulate(outline, "po2e")
+    middles = 0.5 * whole["vertices"][whole["edges"]].sum(axis=1)
+    assert np.array_equal(whole["vertices"][9:], middles)
+    assert np.array_equal(whole["vertex_markers"][9:], whole["edge_markers"]) and 5 in whole["vertex_markers"][9:]
+    # The point in the hole is in no triangle.
+    dropped = triangulate(outline, "pjo2e")
+    assert len(dropped["vertices"]) == len(whole["vertices"]) - 1
+    assert np.array_equal(dropped["vertex_attributes"], dropped["vertices"])
+    assert np.array_equal(np.delete(whole["vertex_markers"], 8, axis=0), dropped["vertex_markers"])
+    assert np.array_equal(dropped["vertices"][dropped["triangles"]], whole["vertices"][whole["triangles"]])
+
+
+@pytest.mark.parametrize("switches", ["u", "k", "p3", "q20w", "%", "pqS100", "q."])
 def test_unknown_switches(switches):
     with pytest.raises(lamina.UsageError, match="switch"):
         triangulate(given("hole"), switches)

@@ -24,21 +24,34 @@ from .._graph import MeshEdges, find_edges
 from .._triangulation import Triangulation, constrain_triangles, constrained_delaunay, refine
 
 #: A switch and its number.
-_SWITCH = re.compile(r"([a-zA-Z])(\d*\.?\d*(?:[eE][-+]?\d+)?)")
+_SWITCH = re.compile(r"([a-zA-Z])((?:(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)?)")
 #: Switches with numbers; those whose effect lies in the algorithm, or in what is printed, are taken and do nothing here.
-_WITH_NUMBER, _WITHOUT_EFFECT = "qaSoX", "CFIilOQSVXsvyz"
+_WITH_NUMBER, _WITHOUT_EFFECT = "qaoX", "CFIilOQVXsvyz"
 _KNOWN = "prqaAcDjeEnNBPoY" + _WITHOUT_EFFECT
 _DEFAULT_ANGLE = 20.0
+#: The switches that were given, each with its number, or with "", as often as it was given.
+_Switches = dict[str, list[str]]
 
 
-def _switches(options: str) -> dict[str, str]:
-    """Returns the switches and their numbers. Raises UsageError for those that Triangle has not, and for u."""
+def _switches(options: str) -> _Switches:
+    """Returns the switches and their numbers. Raises UsageError for those that Triangle has not, and for S and u."""
     text = options.lstrip("-")
-    found = dict(_SWITCH.findall(text))
-    unknown = [letter for letter, number in found.items() if letter not in _KNOWN or (number and letter not in _WITH_NUMBER)]
+    found: _Switches = {}
+    for letter, number in _SWITCH.findall(text):
+        found.setdefault(letter, []).append(number)
+    if "S" in found:
+        raise UsageError(f"options: '{options}' has the switch S, which has no counterpart here: lamina.refine() takes "
+                         "max_triangles")
+    unknown = [letter for letter, numbers in found.items()
+               if letter not in _KNOWN or (any(numbers) and letter not in _WITH_NUMBER)]
     if unknown or _SWITCH.sub("", text):
         raise UsageError(f"options: '{options}' has a switch that is not known: {(unknown or [text])[0]}")
     return found
+
+
+def _number(switches: _Switches, letter: str) -> float | None:
+    """Returns the last number of a switch."""
+    return next((float(number) for number in reversed(switches.get(letter, [])) if number), None)
 
 
 def _column(given: Mapping[str, Any], key: str, count: int) -> np.ndarray:
@@ -49,7 +62,7 @@ def _column(given: Mapping[str, Any], key: str, count: int) -> np.ndarray:
     return values
 
 
-def _coarse(given: Mapping[str, Any], switches: dict[str, str], points: np.ndarray) -> Triangulation:
+def _coarse(given: Mapping[str, Any], switches: _Switches, points: np.ndarray) -> Triangulation:
     """Returns the triangulation that -r, -p or neither asks for, without refinement."""
     segments = index_array(given.get("segments", ()), 2, "segments")
     if "r" in switches:
@@ -62,22 +75,31 @@ def _coarse(given: Mapping[str, Any], switches: dict[str, str], points: np.ndarr
                                 holes=given.get("holes", ()))
 
 
-def _refined(given: Mapping[str, Any], switches: dict[str, str], coarse: Triangulation) -> Triangulation:
-    """Returns the triangulation with the bounds of -q, -a and -D, and with regions."""
-    angle = float(switches["q"] or _DEFAULT_ANGLE) if "q" in switches else 0.0
-    area = float(switches["a"]) if switches.get("a") else None
-    seeds = np.asarray(given.get("regions", np.empty((0, 4))), dtype=np.float64).reshape(-1, 4) if "p" in switches else \
-        np.empty((0, 4))
-    by_region = "a" in switches and area is None and "r" not in switches
-    regions = [(x, y, bound if by_region else area or 0.0) for x, y, _, bound in seeds.tolist()]
-    bounds: Any = area
-    if "a" in switches and "r" in switches and "triangle_max_area" in given:
-        bounds = np.asarray(given["triangle_max_area"], dtype=np.float64).reshape(-1)
-        bounds = bounds if area is None else np.where(bounds > 0, np.minimum(bounds, area), area)
-    if not (angle or bounds is not None or any(bound > 0 for *_, bound in regions) or "D" in switches):
-        return replace(coarse, regions=_regions(coarse, seeds)) if len(seeds) else coarse
-    return refine(coarse, math.inf, min_angle=angle, max_area=bounds, regions=regions, conforming="D" in switches,
-                  split_segments="Y" not in switches, smoothing=2 if angle or bounds is not None or by_region else 0)
+def _area_bounds(given: Mapping[str, Any], switches: _Switches, seeds: np.ndarray) -> tuple[Any, list[Any]]:
+    """Returns the largest areas of all triangles and the regions with their own, as refine() takes both. An `a` without a
+    number stands for areas of regions, and with -r for those of triangles; one with a number may come beside it."""
+    area = _number(switches, "a")
+    if "" not in switches.get("a", []):
+        return area, []
+    if "r" not in switches:
+        return area, [(x, y, bound) for x, y, _, bound in seeds.tolist() if bound > 0]
+    if "triangle_max_area" not in given:
+        return area, []
+    bounds = np.asarray(given["triangle_max_area"], dtype=np.float64).reshape(-1)
+    return bounds if area is None else np.where(bounds > 0, np.minimum(bounds, area), area), []
+
+
+def _refined(given: Mapping[str, Any], switches: _Switches, coarse: Triangulation) -> Triangulation:
+    """Returns the triangulation with the bounds of -q, -a and -D, and with the regions of all seeds."""
+    angle = 0.0 if "q" not in switches else _DEFAULT_ANGLE if not switches["q"][-1] else float(switches["q"][-1])
+    no_seeds = np.empty((0, 4))
+    seeds = np.asarray(given.get("regions", no_seeds) if "p" in switches else no_seeds, dtype=np.float64).reshape(-1, 4)
+    bounds, bounded = _area_bounds(given, switches, seeds)
+    t = coarse
+    if angle or bounds is not None or bounded or "D" in switches:
+        t = refine(coarse, math.inf, min_angle=angle, max_area=bounds, regions=bounded, conforming="D" in switches,
+                   split_segments="Y" not in switches, smoothing=2 if angle or bounds is not None or bounded else 0)
+    return replace(t, regions=_regions(t, seeds)) if len(seeds) else t
 
 
 def _regions(t: Triangulation, seeds: np.ndarray) -> np.ndarray:
@@ -98,7 +120,7 @@ def _regions(t: Triangulation, seeds: np.ndarray) -> np.ndarray:
     return regions
 
 
-def _segments(given: Mapping[str, Any], switches: dict[str, str], t: Triangulation,
+def _segments(given: Mapping[str, Any], switches: _Switches, t: Triangulation,
               boundary: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Returns the edges of segments, the markers that were given, and the same with 1 on the boundary where that is 0."""
     markers = _column(given, "segment_markers", len(given.get("segments", ()))) if "p" in switches else np.zeros(0, np.int64)
@@ -130,16 +152,33 @@ def _vertex_markers(given: Mapping[str, Any], t: Triangulation, segments: np.nda
     return result
 
 
+def _coarse_attributes(given: Mapping[str, Any], coarse: Triangulation) -> np.ndarray:
+    """Returns the attributes of the points of the coarse triangulation; those where segments cross are linear along one of
+    them, as in Triangle's segmentintersection()."""
+    points = coarse.points[:coarse.given_points]
+    own = np.asarray(given["vertex_attributes"], dtype=np.float64).reshape(len(points), -1)
+    if len(coarse.points) == len(points):
+        return own
+    # Outside and in holes all triangles have to stay for this, else there are crossings without a segment.
+    segments = index_array(given["segments"], 2, "segments")
+    whole = constrained_delaunay(points, segments, crossings="insert", merge_distance=0)
+    crossings, first = np.unique(whole.segments, return_index=True)
+    is_new = crossings >= len(points)
+    a, b = segments[whole.parents[first[is_new] // 2]].T
+    along, before = points[b] - points[a], whole.points[crossings[is_new]] - points[a]
+    share = (before * along).sum(axis=1) / (along * along).sum(axis=1)
+    return np.concatenate([own, own[a] + share[:, None] * (own[b] - own[a])])
+
+
 def _attributes(given: Mapping[str, Any], coarse: Triangulation, t: Triangulation) -> np.ndarray:
-    """Returns the attributes of the points; those of new ones are linear in the coarse triangles."""
-    own = np.asarray(given["vertex_attributes"], dtype=np.float64).reshape(t.given_points, -1)
-    old = np.concatenate([own, np.zeros((len(coarse.points) - len(own), own.shape[1]))])
+    """Returns the attributes of the points; those that refinement added are linear in the coarse triangles."""
+    old = _coarse_attributes(given, coarse)
     # Rounding puts points of the boundary outside: what is asked is beside them, in a triangle.
     inside = np.array(t.points)
     inside[t.triangles.reshape(-1)] += 1e-9 * (np.repeat(t.points[t.triangles].mean(axis=1), 3, axis=0)
                                                - t.points[t.triangles.reshape(-1)])
-    new = coarse.interpolate(old, inside[t.given_points:])
-    return np.concatenate([own, new.reshape(-1, own.shape[1])])
+    new = coarse.interpolate(old, inside[len(old):])
+    return np.concatenate([old, new.reshape(-1, old.shape[1])])
 
 
 def triangulate(tri: Mapping[str, Any], opts: str = "") -> dict[str, Any]:
@@ -148,7 +187,7 @@ def triangulate(tri: Mapping[str, Any], opts: str = "") -> dict[str, Any]:
     tri: a dictionary with `vertices` (n, 2), and where they are wanted `vertex_attributes`, `vertex_markers`, `segments`
     (k, 2), `segment_markers`, `holes` (h, 2), `regions` (r, 4: x, y, attribute, largest area), `triangles`,
     `triangle_max_area`. opts: p, r, q[angle], a[area], A, c, D, Y, e, n, o2, j, B, P, N and E have their meaning; s, i, F,
-    l, v, C, I, O, Q, S, V, X, y and z are taken. Raises UsageError for other switches, and what
+    l, v, C, I, O, Q, V, X, y and z are taken. Raises UsageError for other switches, and what
     `lamina.constrained_delaunay()` and `lamina.refine()` raise.
     """
     switches = _switches(opts)
@@ -172,11 +211,12 @@ def triangulate(tri: Mapping[str, Any], opts: str = "") -> dict[str, Any]:
         result["segments"] = segments.astype(np.int32)
         if "B" not in switches:
             result["segment_markers"] = marks
-    _add_connectivity(result, switches, t, edges, segments, marks)
+    edge_markers = _edge_markers(edges, segments, marks)
+    _add_connectivity(result, switches, t, edges, edge_markers)
+    if _number(switches, "o") == 2:
+        _add_quadratic_nodes(result, t, edges, edge_markers)
     if "j" in switches:
         _drop_unused(result)
-    if "o" in switches and switches["o"] == "2":
-        _add_quadratic_nodes(result, t, boundary)
     for letter, key in (("N", "vertices"), ("E", "triangles")):
         if letter in switches:
             del result[key]
@@ -186,17 +226,35 @@ def triangulate(tri: Mapping[str, Any], opts: str = "") -> dict[str, Any]:
     return {key: values for key, values in result.items() if len(values)}
 
 
-def _add_connectivity(result: dict[str, Any], switches: dict[str, str], t: Triangulation, edges: MeshEdges,
-                      segments: np.ndarray, marks: np.ndarray) -> None:
+def _edge_markers(edges: MeshEdges, segments: np.ndarray, marks: np.ndarray) -> np.ndarray:
+    """Returns the marks of the segments that edges are, else 1 on the boundary."""
+    markers = (edges.cells[:, 1] < 0).astype(np.int64)
+    # One number for both ends, in whose order the edges are.
+    weights = np.array([int(edges.ends.max(initial=0)) + 1, 1])
+    markers[np.searchsorted(edges.ends @ weights, np.sort(segments, axis=1) @ weights)] = marks
+    return markers
+
+
+def _add_connectivity(result: dict[str, Any], switches: _Switches, t: Triangulation, edges: MeshEdges,
+                      edge_markers: np.ndarray) -> None:
     """Adds what -n and -e ask for."""
     if "n" in switches:
         result["neighbors"] = t.neighbours.astype(np.int32)
     if "e" in switches:
         result["edges"] = edges.ends.astype(np.int32)
-        of_edge = dict(zip(map(tuple, np.sort(segments, axis=1).tolist()), marks.tolist()))
-        given = np.array([of_edge.get(tuple(edge), 0) for edge in edges.ends.tolist()], dtype=np.int64)
         if "B" not in switches:
-            result["edge_markers"] = np.where((given == 0) & (edges.cells[:, 1] < 0), 1, given)
+            result["edge_markers"] = edge_markers
+
+
+def _add_quadratic_nodes(result: dict[str, Any], t: Triangulation, edges: MeshEdges, edge_markers: np.ndarray) -> None:
+    """Puts the middles of edges behind the points, as nodes of the triangles. They come in the order of the edges."""
+    points, nodes = t.quadratic_nodes()
+    result["vertices"], result["triangles"] = points, nodes.astype(np.int32)
+    if "vertex_markers" in result:
+        result["vertex_markers"] = np.concatenate([result["vertex_markers"], edge_markers])
+    if "vertex_attributes" in result:
+        middles = result["vertex_attributes"][edges.ends].mean(axis=1)
+        result["vertex_attributes"] = np.concatenate([result["vertex_attributes"], middles])
 
 
 def _drop_unused(result: dict[str, Any]) -> None:
@@ -210,20 +268,3 @@ def _drop_unused(result: dict[str, Any]) -> None:
     for key in ("triangles", "segments", "edges"):
         if key in result:
             result[key] = number[result[key]].astype(np.int32)
-
-
-def _add_quadratic_nodes(result: dict[str, Any], t: Triangulation, boundary: np.ndarray) -> None:
-    """Puts the middles of edges behind the points, as nodes of the triangles."""
-    points, nodes = t.quadratic_nodes()
-    added = len(points) - len(t.points)
-    ends = nodes[:, [[1, 2], [2, 0], [0, 1]]].reshape(-1, 2)
-    of_middle = np.zeros((added, 2), dtype=np.int64)
-    of_middle[nodes[:, 3:].reshape(-1) - len(t.points)] = ends
-    result["vertices"], result["triangles"] = points, nodes.astype(np.int32)
-    if "vertex_markers" in result:
-        outer = {tuple(edge) for edge in boundary.tolist()}
-        markers = [int(tuple(edge) in outer) for edge in np.sort(of_middle, axis=1).tolist()]
-        result["vertex_markers"] = np.concatenate([result["vertex_markers"], markers])
-    if "vertex_attributes" in result:
-        middles = result["vertex_attributes"][of_middle].mean(axis=1)
-        result["vertex_attributes"] = np.concatenate([result["vertex_attributes"], middles])
