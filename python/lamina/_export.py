@@ -15,7 +15,8 @@ def _cell_data(mesh: Mesh) -> dict[str, np.ndarray]:
 
 
 def _point_data(mesh: Mesh) -> dict[str, np.ndarray]:
-    data = {"node_type": np.array(mesh.node_type)}
+    data = {name: np.array(values) for name in ("node_type", "node_marker", "node_layer")
+            if len(values := getattr(mesh, name))}
     # Without walls there is no distance to them.
     if "wall" in mesh.marker_kinds.values():
         data["wall_distance"] = np.array(mesh.wall_distance)

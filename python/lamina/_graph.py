@@ -9,6 +9,7 @@ import numpy as np
 
 from . import _lamina
 from ._arrays import Values, immutable
+from ._errors import WrongTypeError
 
 #: The names of the numbers in Mesh.node_type.
 NODE_TYPES = ("inside", *_lamina.marker_kinds)
@@ -20,6 +21,7 @@ class MeshEdges(Values):
 
     ends: np.ndarray  #: (e, 2) points, the smaller number first; sorted
     cells: np.ndarray  #: (e, 2) the cells beside, the smaller number first; -1: there is no second one
+    first_along: np.ndarray  #: (e,) whether the first cell has the ends in this order, and not the other one
     neighbours: np.ndarray  #: (cells, 3 or 4) the cell across the edge from corner i to the next one; -1: none
 
 
@@ -37,6 +39,7 @@ def find_edges(triangles: np.ndarray, quads: np.ndarray) -> MeshEdges:
     """
     parts = [_edges_of_cells(triangles, 0), _edges_of_cells(quads, len(triangles))]
     ends, cell, side = (np.concatenate(column) for column in zip(*parts))
+    is_along = ends[:, 0] < ends[:, 1]
     ends.sort(axis=1)
     # One number for both ends. The order of cells stays where these are equal.
     order = np.argsort(ends[:, 0] * (int(ends.max(initial=0)) + 1) + ends[:, 1], kind="stable")
@@ -52,7 +55,7 @@ def find_edges(triangles: np.ndarray, quads: np.ndarray) -> MeshEdges:
     neighbours = np.full((len(triangles) + len(quads), 4 if len(quads) else 3), -1, dtype=np.int64)
     neighbours[cell[first[is_paired]], side[first[is_paired]]] = cell[second]
     neighbours[cell[second], side[second]] = cell[first[is_paired]]
-    return MeshEdges(immutable(ends[first]), immutable(beside), immutable(neighbours))
+    return MeshEdges(immutable(ends[first]), immutable(beside), immutable(is_along[order[first]]), immutable(neighbours))
 
 
 def _areas_and_centres(points: np.ndarray, cells: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -73,27 +76,50 @@ def areas_and_centres(points: np.ndarray, triangles: np.ndarray, quads: np.ndarr
     return immutable(areas), immutable(centres)
 
 
-def edge_normals(points: np.ndarray, edges: MeshEdges, centres: np.ndarray) -> np.ndarray:
-    """Returns the unit normals of the edges, out of the first cell beside."""
+def edge_normals(points: np.ndarray, edges: MeshEdges, areas: np.ndarray) -> np.ndarray:
+    """Returns the unit normals of the edges, out of the first cell beside: to the right of the way round it, to the left
+    where it is clockwise. The centre of gravity says less, for it may be outside."""
     along = points[edges.ends[:, 1]] - points[edges.ends[:, 0]]
     normals = np.column_stack([along[:, 1], -along[:, 0]]) / np.hypot(along[:, 0], along[:, 1])[:, None]
-    inwards = ((points[edges.ends[:, 0]] - centres[edges.cells[:, 0]]) * normals).sum(axis=1) < 0
-    normals[inwards] *= -1
+    normals[edges.first_along != (areas[edges.cells[:, 0]] > 0)] *= -1
     return immutable(normals)
 
 
+def node_markers(mesh: Any) -> np.ndarray:
+    """Returns Mesh.node_marker. Where markers meet, the kind that comes first in NODE_TYPES counts, then the first one."""
+    markers = np.full(len(mesh.points), -1, dtype=np.int64)
+    names = list(mesh.markers)
+    for name in sorted(names, key=lambda name: NODE_TYPES.index(mesh.marker_kinds[name]))[::-1]:
+        markers[mesh.markers[name].reshape(-1)] = names.index(name)
+    return immutable(markers)
+
+
 def node_types(mesh: Any) -> np.ndarray:
-    """Returns Mesh.node_type. Where markers meet, the kind that comes first in NODE_TYPES counts."""
-    types = np.zeros(len(mesh.points), dtype=np.int64)
-    for name, kind in sorted(mesh.marker_kinds.items(), key=lambda item: -NODE_TYPES.index(item[1])):
-        types[mesh.markers[name].reshape(-1)] = NODE_TYPES.index(kind)
-    return immutable(types)
+    """Returns Mesh.node_type."""
+    kinds = np.array([NODE_TYPES.index(kind) for kind in mesh.marker_kinds.values()] + [0])  # inside there is no marker
+    return immutable(kinds[mesh.node_marker])
+
+
+def node_layers(mesh: Any) -> np.ndarray:
+    """Returns Mesh.node_layer."""
+    per_cell = mesh.layer.astype(np.int64)
+    if len(per_cell) == 0:
+        return immutable(per_cell)
+    outside = np.iinfo(np.int64).max
+    layers = np.full(len(mesh.points), outside)
+    for cells, numbers in zip((mesh.triangles, mesh.quads), np.split(per_cell, [len(mesh.triangles)])):
+        np.minimum.at(layers, cells[numbers > 0], numbers[numbers > 0, None])
+    layers[layers == outside] = 0
+    return immutable(layers)
 
 
 def edge_index(pairs: np.ndarray, both_directions: bool, dtype: Any) -> np.ndarray:
     """Returns pairs of nodes as PyTorch Geometric takes them, (2, E); the second half are the others turned round."""
-    kind = np.dtype(dtype)
+    try:
+        kind = np.dtype(dtype)
+    except TypeError:
+        kind = None
     if kind not in (np.int64, np.int32):
-        raise TypeError(f"dtype must be int64 or int32, not {kind}")
+        raise WrongTypeError(f"dtype must be int64 or int32, not {kind or repr(dtype)}")
     columns = np.ascontiguousarray(pairs.T, dtype=kind)
     return np.concatenate([columns, columns[::-1]], axis=1) if both_directions else columns

@@ -16,7 +16,8 @@ import numpy as np
 from . import _lamina
 from ._arrays import Values, immutable, index_array, points_array
 from ._errors import MeshWarning, UsageError
-from ._graph import MeshEdges, areas_and_centres, edge_index, edge_normals, find_edges, node_types
+from ._graph import (MeshEdges, areas_and_centres, edge_index, edge_normals, find_edges, node_layers, node_markers,
+                     node_types)
 from ._sections import Sections
 
 #: The kinds of markers, in the order of the C++ enumeration.
@@ -271,7 +272,7 @@ class Mesh:
 
     @property
     def areas(self) -> np.ndarray:
-        """(cells,) areas, in units of the input."""
+        """(cells,) signed areas, in units of the input: those of clockwise cells, which no valid mesh has, are negative."""
         return self._areas_and_centres[0]
 
     @property
@@ -282,13 +283,25 @@ class Mesh:
     @cached_property
     def edge_normals(self) -> np.ndarray:
         """(e, 2) unit normals of `edges`, out of the first of `edge_cells`: out of the mesh on the boundary."""
-        return edge_normals(self.points, self._edges, self.cell_centres)
+        return edge_normals(self.points, self._edges, self.areas)
 
     @cached_property
     def node_type(self) -> np.ndarray:
         """(n,) for each point an index into `lamina.NODE_TYPES`: 0 inside, 1 on a wall, 2 on the far field, and so on.
         Where markers meet, the smaller number counts."""
         return node_types(self)
+
+    @cached_property
+    def node_marker(self) -> np.ndarray:
+        """(n,) for each point an index into `list(markers)`, which tells bodies apart; -1 inside. Where markers meet, the
+        one of the smaller `node_type` counts, and of several the first."""
+        return node_markers(self)
+
+    @cached_property
+    def node_layer(self) -> np.ndarray:
+        """(n,) for each point the smallest `layer` of the cells of the layer beside; 0 where there are none. Empty where
+        `layer` is."""
+        return node_layers(self)
 
     def edge_index(self, *, both_directions: bool = False, of: Literal["points", "cells"] = "points",
                    dtype: Any = np.int64) -> np.ndarray:
@@ -391,7 +404,7 @@ class Mesh:
 
     def to_meshio(self) -> Any:
         """Returns the mesh as a `meshio.Mesh`: cells, one block of lines and one set for each marker; data `layer` and
-        `region` of the cells, `wall_distance` and `node_type` of the points. Needs meshio."""
+        `region` of the cells, `wall_distance`, `node_type`, `node_marker` and `node_layer` of the points. Needs meshio."""
         from ._export import to_meshio
 
         return to_meshio(self)
@@ -405,14 +418,15 @@ class Mesh:
 
     def to_pyg(self) -> Any:
         """Returns the mesh as a `torch_geometric.data.Data`: `pos`, `edge_index` in both directions, `edge_attr` (step
-        in x and y, length), `node_type`, `wall_distance`; `face` where all cells are triangles. Needs PyTorch Geometric."""
+        in x and y, length), the data of the points of `to_meshio()`; `face` where all cells are triangles. Needs PyTorch
+        Geometric."""
         from ._export import to_pyg
 
         return to_pyg(self)
 
     def to_networkx(self) -> Any:
-        """Returns the points and edges as a `networkx.Graph`: nodes with `pos`, `node_type` and `wall_distance`, edges
-        with `length`. Needs networkx."""
+        """Returns the points and edges as a `networkx.Graph`: nodes with `pos` and the data of the points of `to_meshio()`,
+        edges with `length`. Needs networkx."""
         from ._export import to_networkx
 
         return to_networkx(self)

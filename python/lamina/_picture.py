@@ -48,7 +48,7 @@ def _cell_values(mesh: Mesh, color: str, kind: str, chosen: np.ndarray) -> np.nd
     """Returns what the colours of these triangles or quads show."""
     numbers = chosen + (0 if kind == "triangles" else len(mesh.triangles))
     if color == "size":
-        return np.asarray(np.log10(np.sqrt(mesh.areas[numbers])))
+        return np.asarray(np.log10(np.sqrt(np.abs(mesh.areas[numbers]))))
     if color == "quality":
         corners = mesh.points[(mesh.triangles if kind == "triangles" else mesh.quads)[chosen]]
         after, before = np.roll(corners, -1, axis=1) - corners, np.roll(corners, 1, axis=1) - corners

@@ -80,6 +80,23 @@ def test_areas_centres_and_normals(mesh):
     assert moment == pytest.approx(whole * middle - hole, abs=1e-6 * whole)
 
 
+@pytest.mark.parametrize("turn", [1, -1])
+def test_normals_of_a_cell_without_its_centre(turn):
+    corners = np.array([[0, 0], [4, 0], [0.1, 0.1], [0, 4]])
+    mesh = lamina.mesh_of_arrays(corners, [], {}, quads=[[0, 1, 2, 3][::turn]])
+    a, b = (mesh.points[mesh.edges[:, k]] for k in (0, 1))
+    scaled = mesh.edge_normals * np.hypot(*(b - a).T)[:, None]
+    assert scaled.sum(axis=0) == pytest.approx([0, 0], abs=1e-12) and mesh.areas == pytest.approx([0.4 * turn])
+    assert 0.5 * (scaled * 0.5 * (a + b)).sum() == pytest.approx(0.4)
+
+
+def test_plot_of_clockwise_cells():
+    pytest.importorskip("matplotlib").use("Agg")
+    mesh = lamina.mesh_of_arrays([[0, 0], [1, 0], [0, 1]], [[0, 2, 1]], {"wall": [[0, 1]]})
+    axes = mesh.plot(color="size")
+    assert np.isfinite(axes.collections[0].get_array()).all()
+
+
 def test_edge_index(mesh):
     plain, both = mesh.edge_index(), mesh.edge_index(both_directions=True)
     assert plain.dtype == np.int64 and plain.shape == (2, len(mesh.edges)) and np.array_equal(plain.T, mesh.edges)
@@ -99,10 +116,30 @@ def test_node_type(mesh):
     assert set(names) == {"inside", "wall", "far_field"}
     assert set(np.flatnonzero(names == "wall")) == set(mesh.wall.vertex.tolist())
     assert (mesh.wall_distance[names == "inside"] > 0).all()
+    for name, edges in mesh.markers.items():
+        assert set(np.flatnonzero(mesh.node_marker == list(mesh.markers).index(name))) == set(edges.reshape(-1).tolist())
+    assert ((mesh.node_marker < 0) == (names == "inside")).all()
+
+
+def test_nodes_tell_bodies_and_layers_apart(mesh):
+    two = lamina.mesh({"main": "naca:0012", "flap": 0.3 * lamina.naca("0012", 60) + [1.2, -0.1]}, preset="euler",
+                      surface_points=60)
+    names = [list(two.markers)[number] for number in two.node_marker[two.wall.vertex]]
+    assert names == [list(two.markers)[number] for number in two.wall.marker] and {"main", "flap"} == set(names)
+    assert (two.node_layer == 0).all()
+    lowest = {}
+    for cell, layer in zip(cells_of(mesh), mesh.layer.tolist()):
+        for point in cell if layer else ():
+            lowest[point] = min(layer, lowest.get(point, layer))
+    assert mesh.node_layer.tolist() == [lowest.get(point, 0) for point in range(len(mesh.points))]
+    assert (mesh.node_layer[mesh.wall.vertex] == 1).all() and mesh.node_layer.max() > 1
+    without = lamina.mesh_of_arrays(mesh.points, mesh.triangles, {}, quads=mesh.quads)
+    assert len(without.node_layer) == 0 and "node_layer" not in without.to_row()
 
 
 def test_graph_arrays_cannot_change(mesh):
-    for name in ("edges", "edge_cells", "neighbours", "areas", "cell_centres", "edge_normals", "node_type"):
+    for name in ("edges", "edge_cells", "neighbours", "areas", "cell_centres", "edge_normals", "node_type",
+                 "node_marker", "node_layer"):
         with pytest.raises(ValueError):
             getattr(mesh, name)[...] = 0
     assert mesh.edges is mesh.edges
@@ -112,7 +149,8 @@ def test_meshio_has_markers_and_distances(mesh):
     pytest.importorskip("meshio")
     other = mesh.to_meshio()
     assert np.array_equal(other.point_data["wall_distance"], mesh.wall_distance)
-    assert np.array_equal(other.point_data["node_type"], mesh.node_type)
+    for name in ("node_type", "node_marker", "node_layer"):
+        assert np.array_equal(other.point_data[name], getattr(mesh, name))
     assert set(other.cell_sets) == set(mesh.markers)
 
 
@@ -132,6 +170,7 @@ def test_networkx(mesh):
     pytest.importorskip("networkx")
     graph = mesh.to_networkx()
     assert graph.number_of_edges() == len(mesh.edges) and graph.nodes[5]["pos"] == tuple(mesh.points[5])
+    assert [graph.nodes[point]["node_layer"] for point in graph] == mesh.node_layer.tolist()
     assert sorted(map(sorted, graph.edges)) == mesh.edges.tolist()
 
 
@@ -162,6 +201,7 @@ def test_arrays_for_pytorch_geometric(mesh, monkeypatch):
     assert np.array_equal(graph.edge_attr[:, :2], end - start)
     assert np.allclose(graph.edge_attr[:, 2], np.linalg.norm(end - start, axis=1))
     assert hasattr(graph, "face") == (len(mesh.quads) == 0) and np.array_equal(graph.node_type, mesh.node_type)
+    assert np.array_equal(graph.node_marker, mesh.node_marker) and np.array_equal(graph.node_layer, mesh.node_layer)
 
 
 def test_pytorch_geometric(mesh):

@@ -50,7 +50,8 @@ def test_wrong_types_are_named(wrong):
     lambda t, mesh: lamina.delaunay([[0, 0], [1]]),
     lambda t, mesh: lamina.constrained_delaunay(t.points, [[0, 1], [2]]), lambda t, mesh: lamina.refine(t, max_area="x"),
     lambda t, mesh: lamina.refine(t, "x", max_area=1), lambda t, mesh: lamina.refine(t, "x"),
-    lambda t, mesh: t.interpolate(["x"] * 4, [0.5, 0.5])])
+    lambda t, mesh: t.interpolate(["x"] * 4, [0.5, 0.5]), lambda t, mesh: mesh.edge_index(dtype=float),
+    lambda t, mesh: mesh.edge_index(dtype="x")])
 def test_errors_of_wrong_types_are_of_lamina(call, square, small):
     with pytest.raises(lamina.WrongTypeError):
         call(square, small)
