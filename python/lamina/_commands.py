@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from . import _lamina
-from ._arrays import Values
+from ._arrays import Values, doubles
 from ._errors import InputError, MeshWarning, OptionError, UsageError
 from ._mesh import Mesh, read
 from ._meshing import made_mesh, run_arguments
@@ -31,6 +31,9 @@ _NO_PRESET = {"preset": "none"}
 
 #: The names of the numbers in FlowSide.state.
 BOUNDARY_LAYER_STATES = ("laminar", "turbulent", "separated")
+
+#: As of `lamina family`.
+_MOST_LEVELS = 12
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -65,7 +68,7 @@ class ElementFlow(Values):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Flow(Values):
-    """The flow before a mesh. `drag` and what follows is None where the flow is nowhere faster than sound."""
+    """The flow before a mesh. Where it is nowhere faster than sound, all drags and the mesh are None."""
 
     alpha: float  #: direction of the free stream, in degrees
     chord: float  #: reference length of the coefficients
@@ -157,11 +160,11 @@ def family(sections: Sections, *, levels: int = 4, ratio: float = math.sqrt(2), 
            **options: Unpack[MeshOptions]) -> list[FamilyMember]:
     """Makes similar meshes, each finer than the one before, as `lamina family` does.
 
-    levels: their number. ratio: of all lengths from one to the next. base_level: the level with the lengths of the
+    levels: their number, up to 12. ratio: of all lengths from one to the next. base_level: the level with the lengths of the
     options; None: the middle one. write: path of the mesh files, with {level} in it. The finest mesh is made first.
     """
-    if levels < 1:
-        raise OptionError(f"levels: must be at least 1, not {levels}")
+    if not 1 <= levels <= _MOST_LEVELS:
+        raise OptionError(f"levels: must be from 1 to {_MOST_LEVELS}, not {levels}")
     base = levels // 2 if base_level is None else base_level
     if not 0 <= base < levels:
         raise OptionError(f"base_level: must be from 0 to {levels - 1}, not {base}")
@@ -219,16 +222,19 @@ def sizes(solution: str | os.PathLike[str] | Mesh, fields: str | Sequence[str] |
     if isinstance(solution, Mesh):
         if not isinstance(fields, Mapping):
             raise UsageError("fields: give arrays by their names for a mesh")
+        if mesh is not None:
+            raise UsageError("mesh: the solution is a mesh itself")
         data = solution._data
         arrays = [_field(solution, str(name), values) for name, values in fields.items()]
     else:
         names = [fields] if isinstance(fields, str) else [str(name) for name in fields]
         data, arrays = _lamina.read_solution(os.fspath(solution), names, "" if mesh is None else os.fspath(mesh))
-    return SolutionSizes(*_lamina.sizes_of_fields(data, arrays, float(vertices), norm, gradation, max_change))
+    count = float(doubles(vertices, "vertices"))
+    return SolutionSizes(*_lamina.sizes_of_fields(data, arrays, count, norm, gradation, max_change))
 
 
 def _field(mesh: Mesh, name: str, values: ArrayLike) -> tuple[str, bool, np.ndarray]:
-    array = np.ascontiguousarray(values, dtype=np.float64)
+    array = doubles(values, name)
     if array.shape not in ((len(mesh.points),), (len(mesh),)):
         raise InputError(f"{name}: must have one number for each of {len(mesh.points)} points or {len(mesh)} cells, not "
                          f"the shape {array.shape}")

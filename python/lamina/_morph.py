@@ -32,7 +32,7 @@ class MorphMap:
         return len(self.wall)
 
     def __repr__(self) -> str:
-        return f"<lamina.MorphMap of {len(self.wall):,} wall vertices of {self._mesh!r}>"
+        return f"<lamina.MorphMap of {len(self.wall):,} wall vertices of {self.mesh!r}>"
 
     def walls_on(self, shape: Sections) -> np.ndarray:
         """Returns the wall points on other shapes, one per body in the order of the mesh: files, names or arrays.

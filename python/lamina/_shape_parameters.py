@@ -51,7 +51,7 @@ class ShapeParameters:
     def vector_jacobian(self, parameters: Any, gradient: Any) -> np.ndarray:
         """Returns the gradient by the parameters, (k,), of a function whose gradient by all vertices is given."""
         by_wall = self.moving.vector_jacobian(self.wall(parameters), gradient)
-        return np.einsum("nd,ndk->k", by_wall, self.derivative(parameters))
+        return np.asarray(np.einsum("nd,ndk->k", by_wall, self.derivative(parameters)))
 
 
 class _Surfaces:

@@ -44,8 +44,9 @@ def test_control_c_ends_the_module(as_module, tmp_path):
     process = subprocess.Popen([*as_module, "mesh", "naca:0012", "--preset", "euler", "--wall-size", "1e-4", "--gradation",
                                 "0.003", "--quiet", "-o", str(tmp_path / "m.su2")], stderr=subprocess.DEVNULL)
     time.sleep(1.0)
+    assert process.poll() is None
     process.send_signal(signal.SIGINT)
-    assert process.wait(timeout=5) != 0
+    assert process.wait(timeout=5) == -signal.SIGINT
     assert not list(tmp_path.iterdir())
 
 
@@ -110,7 +111,7 @@ def test_family(program, tmp_path):
     rows = np.genfromtxt(tmp_path / "pfamily.csv", delimiter=",", names=True, dtype=None, encoding=None)
     assert np.allclose([member.h for member in members], rows["h"], rtol=1e-10)
     assert [member.divisor for member in members] == pytest.approx([1 / math.sqrt(2), 1, math.sqrt(2)])
-    for wrong in ({"levels": 0}, {"ratio": 1}, {"base_level": 7}, {"write": "m.su2"}):
+    for wrong in ({"levels": 0}, {"levels": 13}, {"ratio": 1}, {"base_level": 7}, {"write": "m.su2"}):
         with pytest.raises(lamina.UsageError):
             lamina.family("naca:0012", **wrong)
 
@@ -128,6 +129,8 @@ def test_sizes(small, program, tmp_path):
         lamina.sizes(small, {"bump": field[:-1]}, vertices=100)
     with pytest.raises(lamina.UsageError):
         lamina.sizes(small, "bump", vertices=100)
+    with pytest.raises(lamina.UsageError, match="solution is a mesh"):
+        lamina.sizes(small, {"bump": field}, vertices=100, mesh=tmp_path / "sizes.vtu")
     with pytest.raises(FileNotFoundError):
         lamina.sizes(tmp_path / "none.vtu", "p", vertices=100)
 

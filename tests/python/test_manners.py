@@ -51,7 +51,7 @@ def test_wrong_types_are_named(wrong):
     lambda t, mesh: lamina.constrained_delaunay(t.points, [[0, 1], [2]]), lambda t, mesh: lamina.refine(t, max_area="x"),
     lambda t, mesh: lamina.refine(t, "x", max_area=1), lambda t, mesh: lamina.refine(t, "x"),
     lambda t, mesh: t.interpolate(["x"] * 4, [0.5, 0.5]), lambda t, mesh: mesh.edge_index(dtype=float),
-    lambda t, mesh: mesh.edge_index(dtype="x")])
+    lambda t, mesh: mesh.edge_index(dtype="x"), lambda t, mesh: lamina.sizes(mesh, {"p": mesh.points[:, 0]}, vertices="x")])
 def test_errors_of_wrong_types_are_of_lamina(call, square, small):
     with pytest.raises(lamina.WrongTypeError):
         call(square, small)
@@ -182,6 +182,9 @@ def test_progress(capsys, monkeypatch):
     monkeypatch.setitem(sys.modules, "tqdm.auto", None)
     lamina.mesh("naca:0012", progress=True, **OPTIONS)
     assert len(capsys.readouterr().err.splitlines()) == len(seen)
+    with pytest.raises(lamina.OptionError) as caught:
+        lamina.mesh("naca:0012", progress=True, growth=-1)
+    assert caught.value.__context__ is None
     monkeypatch.undo()
     if importlib.util.find_spec("tqdm"):
         lamina.mesh("naca:0012", progress=True, **OPTIONS)
@@ -269,7 +272,7 @@ def test_types_are_strict(repository, tmp_path):
     checked = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--cache-dir", str(tmp_path / "cache"),
                               str(repository / "python/lamina"), str(user)], capture_output=True, text=True)
     assert checked.returncode == 0, checked.stdout
-    user.write_text("import lamina\n\nlamina.mesh('naca:0012', first_hight=1)\n")
+    user.write_text("import lamina\n\nlamina.mesh('naca:0012', first_hight=1, progress=3)\n")
     checked = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--cache-dir", str(tmp_path / "cache"), str(user)],
                              capture_output=True, text=True, env={"MYPYPATH": str(repository / "python")})
-    assert "first_hight" in checked.stdout
+    assert "first_hight" in checked.stdout and '"progress"' in checked.stdout

@@ -164,3 +164,7 @@ def test_example_in_torch(moving, reference):
     pytest.importorskip("torch_geometric")
     graphs = example["graphs"](moving, ["naca:0013:200", "naca:0011:200"])
     assert len(graphs) == 2 and graphs[0].pos.shape == (len(reference.points), 2)
+
+
+def test_map_says_what_it_is(moving):
+    assert repr(moving).startswith(f"<lamina.MorphMap of {len(moving)} wall vertices of <lamina.Mesh round")
