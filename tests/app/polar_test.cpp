@@ -127,7 +127,7 @@ TEST(YPlusCommand, ComputesFirstHeightsWithoutASection) {
                    "exclude each other");
 }
 
-TEST(MeshCommand, ServesARangeOfAnglesAndABudget) {
+TEST(MeshOfARange, ServesAnglesAndABudget) {
     const TemporaryFolder folder;
     const ProgramRun run =
         run_lamina(folder, {"mesh", "naca:4412", "--alpha", "0:12:4", "--reynolds", "1e6", "--far-field", "10",
