@@ -251,7 +251,8 @@ struct ScaledMesh {
 };
 
 /// Makes meshes of different scales until one has so many vertices, or whatever `count` counts, within 3 %; eight at most.
-/// Returns the nearest. Precondition: counts grow with the scale.
+/// Returns the nearest. Scales for which make() throws OptionError, LimitError included, are taken for too large above 1 and
+/// too small below; that of scale 1 is passed on. Precondition: counts grow with the scale.
 LAMINA_EXPORT ScaledMesh mesh_of_count(double wanted, const std::function<MeshResult(double scale)>& make,
                                        const std::function<double(const MeshResult&)>& count);
 

@@ -62,7 +62,7 @@ LAMINA_EXPORT std::vector<LayerPoint> boundary_layer(std::span<const EdgePoint> 
                                                      const BoundaryLayerOptions& options);
 
 /// Returns the boundary layer of a plate in a stream of speed 1 at distance s from its leading edge: the Blasius
-/// solution, or for a turbulent one the law of the 1/7 power (F. M. White, Fluid Mechanics, 7th ed. (2011), section
+/// solution, or for a turbulent one the law of the 1/7 power (F. M. White, Fluid Mechanics, 5th ed. (2003), section
 /// 7.4) from where the layer sustains turbulence. At s = 0 lengths and skin friction are 0.
 LAMINA_EXPORT LayerPoint flat_plate(double s, double viscosity, bool turbulent);
 

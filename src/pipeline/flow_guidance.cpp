@@ -336,7 +336,7 @@ AngleDecisions decisions_at_angle(const AngleFlow& at, std::span<const geometry:
     return decisions;
 }
 
-/// Adds the warnings of the flow at another angle, which say at which.
+/// Adds the warnings of the flow at one angle of several, which say at which.
 void add_warnings_at_angle(const Flow& at, Flow& flow) {
     for (Warning warning : at.warnings) {
         warning.message = fmt::format("at {} degrees: {}", at.alpha_deg, warning.message);
@@ -363,6 +363,10 @@ FlowGuidance guide_by_flow(const Geometry& given, const FlowWalls& walls, const 
 
     FlowGuidance guidance;
     guidance.flow = flows[middle].flow;
+    if (flows.size() > 1) {
+        guidance.flow->warnings.clear();
+        for (const AngleFlow& at : flows) add_warnings_at_angle(at.flow, *guidance.flow);
+    }
     guidance.frictions = flows[middle].frictions;
     guidance.wakes = fan_of_wakes(flows, middle);
     growth.first_heights = flows[middle].first_heights;
@@ -374,7 +378,6 @@ FlowGuidance guide_by_flow(const Geometry& given, const FlowWalls& walls, const 
         growth.first_heights = elementwise(std::move(growth.first_heights), flows[k].first_heights, smaller);
         guidance.frictions = elementwise(std::move(guidance.frictions), flows[k].frictions, larger);
         raise_to(flows[k].least_heights, growth.least_heights);
-        add_warnings_at_angle(flows[k].flow, *guidance.flow);
     }
     if (options.enabled && options.wake_layers)
         growth.wakes = wake_lines(*guidance.flow, guidance.wakes, growth.least_heights);

@@ -176,6 +176,8 @@ void validate(const CaseOptions& options) {
     if (options.use_flow && !options.conditions.reynolds && !options.conditions.velocity)
         throw OptionError("use_flow", "needs reynolds, or velocity and viscosity");
     require_stream_along_walls(options);
+    if (options.inlet_outlet && options.conditions.alphas)
+        throw OptionError("inlet_outlet", "the flow enters at one angle of attack: give one alpha");
     if (options.layer.enabled && options.layer.wake_layers) {
         if (options.conditions.alphas)
             throw OptionError("wake_layers", "layers go on along the wake of one angle of attack: give one alpha");

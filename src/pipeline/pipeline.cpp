@@ -162,15 +162,19 @@ MadeMesh read_and_run(Read read, const CaseOptions& options, MeshDriver& driver,
     return made;
 }
 
+Geometry read_inputs(const std::vector<std::string>& inputs, const CaseOptions& options) {
+    GeometryOptions given = options.geometry;
+    if (options.far_field.symmetry) given.close = true;  // half a section without its chord
+    return read_geometry(inputs, given);
+}
+
 /// Reads the inputs and runs all stages on them.
 MadeMesh run_on_inputs(const std::vector<std::string>& inputs, const CaseOptions& options, MeshDriver& driver,
                        const Progress& progress) {
     Geometry geometry;
     const auto read = [&](StageClock& clock) -> const Geometry& {
         clock.begin("geometry");
-        GeometryOptions given = options.geometry;
-        if (options.far_field.symmetry) given.close = true;  // half a section without its chord
-        geometry = read_geometry(inputs, given);
+        geometry = read_inputs(inputs, options);
         clock.end(&StageSeconds::geometry);
         return geometry;
     };
@@ -209,11 +213,13 @@ MeshResult generate_mesh(const Geometry& geometry, const CaseOptions& options, c
 }
 
 MeshResult generate_mesh(const std::vector<std::string>& inputs, const CaseOptions& options, const Progress& progress) {
-    const auto make = [&](const CaseOptions& of_mesh) {
-        KeepingDriver driver;
-        return whole(run_on_inputs(inputs, of_mesh, driver, progress));
-    };
-    return has_budget(options) ? mesh_within_budget(options, make) : make(options);
+    if (has_budget(options)) {
+        // Several meshes are made, and standard input can be read once.
+        validate(options);
+        return generate_mesh(read_inputs(inputs, options), options, progress);
+    }
+    KeepingDriver driver;
+    return whole(run_on_inputs(inputs, options, driver, progress));
 }
 
 StreamedMesh stream_mesh(const std::vector<std::string>& inputs, const CaseOptions& options, const OpenSink& open_sink,

@@ -71,6 +71,11 @@ TEST(Streams, SectionsAreReadFromStandardInput) {
     ASSERT_EQ(run.exit_code, 0) << run.err;
     EXPECT_EQ(folder.read("a.su2"), folder.read("b.su2"));
     EXPECT_NE(run.out.find("from standard input"), std::string::npos) << run.out;
+    // Where several meshes are made, they are made of one reading, which has its say as ever.
+    const ProgramRun several =
+        run_lamina(folder, {"mesh", "-", "--far-field", "4", "--vertices", "8000", "-o", "d.su2"}, section);
+    ASSERT_EQ(several.exit_code, 0) << several.err;
+    EXPECT_NE(several.out.find("closing point merged"), std::string::npos) << several.out;
     EXPECT_NE(run_lamina(folder, {"info", "-"}, section).out.find("standard input"), std::string::npos);
     const ProgramRun bad = run_lamina(folder, {"mesh", "-", "-o", "c.su2"}, "title\n1 0\n0.5 nan\n0 0\n");
     EXPECT_EQ(bad.exit_code, bad_input);

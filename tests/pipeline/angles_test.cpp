@@ -125,6 +125,54 @@ TEST(Budgets, MeshesHaveTheNumberOfVerticesOrCells) {
     EXPECT_THROW(generate_mesh(shapes::geometry({naca("0012", 100)}), options), OptionError);
 }
 
+/// Counts that grow with a power of the scale stand in for meshes.
+class CountedScales : public testing::TestWithParam<double> {
+protected:
+    double count_of(double scale) const { return 1e4 * std::pow(scale, GetParam()); }
+    /// Returns the nearest, where larger scales and smaller ones than these are refused.
+    ScaledMesh find(double wanted, double least_scale = 0, double largest_scale = HUGE_VAL) {
+        const auto make = [&](double scale) {
+            if (scale < least_scale) throw OptionError("max_ratio", "inf");
+            if (scale > largest_scale) throw LimitError("max_triangles", "are exceeded", RunEstimate{});
+            largest_count_ = std::max(largest_count_, count_of(scale));
+            MeshResult result;
+            result.scale = scale;
+            return result;
+        };
+        return mesh_of_count(wanted, make, [&](const MeshResult& result) { return count_of(result.scale); });
+    }
+    double largest_count_ = 0;
+};
+
+TEST_P(CountedScales, AreFoundFromBelow) {
+    for (const double wanted : {3e2, 3e3, 5e4, 4e5, 5e6}) {
+        largest_count_ = 0;
+        EXPECT_NEAR(find(wanted).count, wanted, 0.03 * wanted);
+        if (wanted > 1e4) {
+            EXPECT_LE(largest_count_, 1.03 * wanted);
+        }
+    }
+}
+
+TEST_P(CountedScales, ThatAreRefusedLeaveTheNearest) {
+    const ScaledMesh few = find(10, 0.3), many = find(1e9, 0, 5);
+    EXPECT_GE(few.scale, 0.3);
+    EXPECT_LT(few.scale, 0.33);
+    EXPECT_LE(many.scale, 5);
+    EXPECT_GT(many.scale, 4.7);
+    EXPECT_NEAR(find(count_of(4.5), 0, 5).count, count_of(4.5), 0.03 * count_of(4.5));
+    EXPECT_THROW(find(1e5, 2), OptionError);
+}
+
+INSTANTIATE_TEST_SUITE_P(Powers, CountedScales, testing::Values(1.4, 1.84, 2.0));
+
+TEST(AnglesOfAttack, AnInletHasOne) {
+    CaseOptions options = options_of_range(1e6, {0, 4, 4});
+    EXPECT_NO_THROW(validate(options));
+    options.inlet_outlet = true;
+    EXPECT_THROW(validate(options), OptionError);
+}
+
 TEST(PlateLayers, HaveTheFirstHeightOfTheirYPlus) {
     const PlateLayer layer = plate_layer({2}, 6e6, 3);
     EXPECT_NEAR(layer.first_height, 2 * 3 * 4.456878e-6, 1e-11);
@@ -137,6 +185,16 @@ TEST(PlateLayers, HaveTheFirstHeightOfTheirYPlus) {
     EXPECT_LT(height, 1.3 * layer.thickness);
     EXPECT_THROW(plate_layer({1}, 1e6, 1, 1), OptionError);
     EXPECT_THROW(plate_layer({0}, 1e6), OptionError);
+}
+
+TEST(PlateLayers, AreCountedInNoTime) {
+    const PlateLayer many = plate_layer({1e-9}, 6e6, 1, 1 + 1e-11);
+    EXPECT_NEAR(static_cast<double>(many.layers), many.thickness / many.first_height,
+                0.2 * static_cast<double>(many.layers));
+    EXPECT_EQ(plate_layer({1e9}, 6e6).layers, 1u);
+    EXPECT_THROW(plate_layer({1e-200}, 1e200), OptionError);
+    EXPECT_THROW(plate_layer({1e-300}, 1e10), OptionError);
+    EXPECT_THROW(plate_layer({1e300}, 1e-10), OptionError);
 }
 
 }  // namespace

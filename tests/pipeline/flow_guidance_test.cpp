@@ -120,6 +120,26 @@ TEST(FlowGuidance, IdenticalElementsHaveIdenticalFirstHeights) {
     EXPECT_NEAR(heights[0] / heights[1], 1, 1e-9);
 }
 
+TEST(FlowGuidance, WarningsSayAtWhichOfSeveralAngles) {
+    FlowConditions conditions{.alpha_deg = 20, .reynolds = 1e6};
+    const Geometry geometry = shapes::geometry({naca("0012", 120)});
+    const ReferenceConditions reference = reference_conditions(conditions, {{0, 0}, {1, 0}});
+    const auto messages = [&] {
+        std::vector<std::string> said;
+        layers::LayerGrowth growth;
+        const auto guidance = pipeline::guide_by_flow(geometry, {}, conditions, {.enabled = false}, reference, growth);
+        for (const Warning& warning : guidance.flow->warnings) said.push_back(warning.message);
+        return said;
+    };
+    ASSERT_EQ(messages().size(), 1u);
+    EXPECT_FALSE(messages().front().starts_with("at "));
+    conditions.alphas = ValueRange{18, 22, 2};
+    const std::vector<std::string> said = messages();
+    ASSERT_EQ(said.size(), 3u);
+    for (std::size_t i = 0; i < said.size(); ++i)
+        EXPECT_TRUE(said[i].starts_with("at " + std::to_string(18 + 2 * i) + " degrees: ")) << said[i];
+}
+
 TEST(FlowGuidance, FirstCellsHaveTheHeightsOfTheirElements) {
     const CaseOptions options = guided_options(3e6, 6);
     const MeshResult result = generate_mesh(two_elements(), options);
