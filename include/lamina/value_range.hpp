@@ -1,9 +1,11 @@
 // Ranges of numbers: A:B[:STEP], as angles of attack of a polar and values of a sweep are written.
 //
 // Guarantees:
-//  1. Values are the decimal numbers that are meant: those of 0:0.3:0.1 are 0, 0.1, 0.2 and 0.3 to the last bit.
+//  1. Values are the decimal numbers that are meant, where first and step have at most 9 decimals: those of 0:0.3:0.1 are
+//     0, 0.1, 0.2 and 0.3 to the last bit.
 // Limits:
 //  1. A range has at most 10,000 values.
+//  2. The last value may be above `last` by 1e-9 of a step, as rounding makes it.
 // Example:
 //     const std::vector<double> angles = values_of(parse_range("-4:18:2"));
 //     assert(angles.size() == 12 && angles.front() == -4 && angles.back() == 18);
@@ -16,10 +18,10 @@
 
 namespace lamina {
 
-/// The numbers first, first + step, first + 2 step, ... that are not above `last`.
+/// The numbers first, first + step, first + 2 step, ... up to `last`.
 struct ValueRange {
     double first = 0;  ///< the first number
-    double last = 0;   ///< none is above this
+    double last = 0;   ///< no number beyond this
     double step = 1;   ///< from each to the next, > 0
     /// Returns whether all three are equal.
     friend bool operator==(const ValueRange&, const ValueRange&) = default;

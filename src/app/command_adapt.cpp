@@ -78,11 +78,12 @@ void adapt(const AdaptArguments& arguments) {
     if (is_given(mesh_case, "gradation")) settings.sizes.gradation = mesh_case.options.sizing.gradation;
     settings.identity = fmt::format("\n{}\n{}\n{}", arguments.solver, arguments.turbulence, arguments.goal);
     MeshCase without_outputs = mesh_case;
-    // Case files may have them; a loop of meshes has numbers of its own.
+    // Case files may have them; a loop of meshes has numbers of vertices of its own.
+    if (mesh_case.options.cells)
+        throw OptionError("cells", "the loop aims at vertices: leave cells out of the case file");
     if (settings.vertices.empty() && mesh_case.options.vertices)
         settings.vertices = {static_cast<double>(*mesh_case.options.vertices)};
     without_outputs.options.vertices.reset();
-    without_outputs.options.cells.reset();
     without_outputs.outputs.clear();
     for (const auto& [file, option] : files_beside_mesh) (without_outputs.*file).clear();
     const std::unique_ptr<AdaptSolver> solver = adapt_solver(arguments.solver, options);

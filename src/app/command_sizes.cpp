@@ -48,9 +48,7 @@ WallFlowOptions wall_flow_of(const std::string& velocity, const MeshCase& mesh_c
 
 /// Returns the function that makes the next mesh by a case file, and counts its vertices.
 VertexCount count_by_case(const MeshCase& mesh_case) {
-    CaseOptions options = options_with_files(mesh_case);
-    options.vertices.reset();  // the sizes decide
-    options.cells.reset();
+    const CaseOptions options = options_with_files(mesh_case);
     auto geometry = std::make_shared<const Geometry>(read_geometry(mesh_case.inputs, options.geometry));
     return [options, geometry](const SizedMesh& sizes) {
         CaseOptions next = options;
@@ -102,6 +100,9 @@ void sizes(const SizesArguments& arguments) {
     if (!arguments.case_file.empty()) {
         mesh_case = case_of_inputs({arguments.case_file});
         require_consistent(*mesh_case);
+        if (mesh_case->options.vertices || mesh_case->options.cells)
+            throw OptionError(mesh_case->options.vertices ? "vertices" : "cells",
+                              "the sizes decide how many there are: leave the option out of the case file");
         const std::vector<RunFile> of_case = files_of_case(*mesh_case);
         inputs.insert(inputs.end(), of_case.begin(), of_case.end());
     }

@@ -22,6 +22,7 @@ struct FlowFact {
     std::string unit;  ///< in the summary
     std::string source;
     bool is_default = false;  ///< whether the summary leaves it out
+    std::string range{};      ///< that the value is one of; empty: there is none
 };
 
 /// Say where the wakes and spacings of the flow come from.
@@ -62,6 +63,10 @@ std::vector<FlowFact> flow_facts(const MeshCase& mesh_case, const MeshResult& re
     std::vector<FlowFact> facts{
         {"chord", "chord", flow.chord, "", options.chord ? "given" : "extent in x"},
         {"alpha_deg", "angle of attack", flow.alpha_deg, " deg", source_of(mesh_case, "alpha"), flow.alpha_deg == 0}};
+    if (options.alphas) {
+        facts.back().is_default = false;
+        facts.back().range = range_text(*options.alphas);
+    }
     if (flow.reynolds)
         facts.push_back({"reynolds", "Reynolds number", *flow.reynolds, "",
                          options.reynolds ? "given" : "velocity x chord / viscosity"});
@@ -195,10 +200,13 @@ Json both_units(double length, double chord) { return {{"chords", length / chord
 
 std::string conditions_summary(const MeshCase& mesh_case, const MeshResult& result) {
     std::string flow, lengths;
-    for (const FlowFact& fact : flow_facts(mesh_case, result))
-        if (!fact.is_default)
-            flow += fmt::format("{}{} {:.6g}{} ({})", flow.empty() ? "" : ", ", fact.label, fact.value, fact.unit,
-                                fact.source);
+    for (const FlowFact& fact : flow_facts(mesh_case, result)) {
+        if (fact.is_default) continue;
+        const std::string value = fmt::format("{:.6g}", fact.value);
+        flow += fmt::format("{}{} {}{} ({})", flow.empty() ? "" : ", ", fact.label,
+                            fact.range.empty() ? value : fact.range, fact.unit, fact.source);
+        if (!fact.range.empty()) flow += fmt::format(", {} where one is needed", value);
+    }
     const double chord = result.conditions.chord;
     for (const LengthFact& fact : length_facts(mesh_case, result))
         lengths +=

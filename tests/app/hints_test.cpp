@@ -49,6 +49,8 @@ TEST(Hints, OptionsOfMeshUnderOtherNames) {
         {"--inflation-layers", "did you mean --layers?"},
         {"--quads", "did you mean --layer-topology?"},
         {"--max-cells", "did you mean --max-triangles?"},
+        {"--ncells", "did you mean --cells?"},
+        {"--elements", "did you mean --cells?"},
         {"--ncores", "did you mean --threads?"},
         {"--seed", "equal inputs give equal meshes"},
         {"--output-format", "did you mean --format?"},

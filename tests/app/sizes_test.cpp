@@ -57,6 +57,11 @@ TEST(SizesCommand, RefusesWhatItCannotUse) {
         {"sizes", "solution.vtu", "--field", "size", "--vertices", "14000", "--case", "case.toml", "-o", "case.toml"},
         usage, "would replace");
     EXPECT_EQ(folder.read("case.toml"), "input = \"naca:0012\"\n");
+    folder.write("cells.toml", "input = \"naca:0012\"\ncells = 9000\n");
+    expect_refused(
+        folder,
+        {"sizes", "solution.vtu", "--field", "size", "--vertices", "14000", "--case", "cells.toml", "-o", "sizes.vtu"},
+        usage, "the sizes decide");
     const std::vector<std::string> velocity{"sizes", "solution.vtu", "--field", "size", "--vertices",
                                             "14000", "--velocity",   "U",       "-o",   "sizes.vtu"};
     expect_refused(folder, velocity, usage, "--velocity requires --case");
