@@ -9,7 +9,6 @@
 #include <iterator>
 #include <memory>
 #include <optional>
-#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -53,17 +52,8 @@ Json json_of(const AdaptRound& round, const std::string& digits) {
 /// Returns the round that a folder holds; nothing where it was not finished. Throws UsageError where it is of other
 /// options.
 std::optional<AdaptRound> read_round(const fs::path& folder, const std::string& digits) {
-    std::error_code ignored;
-    if (!fs::exists(folder, ignored)) return {};
-    const auto refuse = [&](const char* reason) {
-        throw UsageError(fmt::format("{}: {}: give another folder, or remove it", folder.string(), reason));
-    };
-    const fs::path file = folder / marker_name;
-    if (!fs::exists(file, ignored)) refuse("exists, and is no round of this command");
-    const Json json = Json::parse(read_file(file), nullptr, false);
     AdaptRound round;
-    try {
-        if (json.at("fingerprint") != digits) refuse("was made with other options or inputs");
+    const bool exists = read_record(folder / marker_name, "round", digits, [&](const Json& json) {
         round.vertices = json.at("vertices");
         round.cells = json.at("cells");
         round.forces.cl = json.at("CL");
@@ -72,10 +62,8 @@ std::optional<AdaptRound> read_round(const fs::path& folder, const std::string& 
         if (!json.at("iterations").is_null()) round.forces.iterations = json.at("iterations").get<std::size_t>();
         if (!json.at("log10_residual").is_null()) round.forces.residual = json.at("log10_residual").get<double>();
         round.seconds = json.at("seconds");
-    } catch (const Json::exception&) {
-        throw InputError({file.string(), 0, {}}, "is no record of a round");
-    }
-    return round;
+    });
+    return exists ? std::optional(round) : std::nullopt;
 }
 
 std::string rounds_table(const std::vector<AdaptRound>& rounds) {
@@ -262,10 +250,7 @@ private:
     AdaptRound make_round(std::size_t i) {
         Stopwatch watch;
         const std::string part = folder_of(i).filename().string() + ".part-";
-        std::vector<fs::path> left;
-        for (const fs::directory_entry& entry : fs::directory_iterator(settings_.folder))
-            if (entry.path().filename().string().starts_with(part)) left.push_back(entry.path());
-        for (const fs::path& old : left) fs::remove_all(old);
+        for (const fs::path& left : entries_of(settings_.folder, part)) fs::remove_all(left);
         const fs::path folder = settings_.folder / (part + std::to_string(::getpid()));
         fs::create_directories(folder);
 
@@ -346,6 +331,8 @@ void run_adapt(const AdaptSettings& settings, MeshCase mesh_case, AdaptSolver& s
     require_whole(mesh_case);
     require_straight(mesh_case);
     require_consistent(mesh_case);
+    if (mesh_case.options.conditions.alphas)
+        throw UsageError("option --alpha: the rounds are of one angle of attack; lamina polar runs a range of them");
     solver.prepare(mesh_case);
     require_inputs(mesh_case);
     solver.require_programs();

@@ -4,7 +4,6 @@
 #include <string>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <lamina/error.hpp>
 
@@ -34,14 +33,11 @@ void polar(const PolarArguments& arguments) {
     const PolarSettings settings{arguments.folder, fmt::format("\n{}\n{}", arguments.solver, arguments.turbulence)};
     SolverCaseOptions options;
     set_by_name(option_table<SolverCaseOptions>(), "turbulence", arguments.turbulence, options);
-    const std::vector<PolarRow> rows =
+    const auto& [conditions, rows] =
         arguments.solver == own_flow
             ? run_polar_of_flow(settings, mesh_case)
             : run_polar_of_solver(settings, mesh_case, *adapt_solver(arguments.solver, options));
-    const FlowConditions& conditions = mesh_case.options.conditions;
-    if (!mesh_case.quiet)
-        print_result(polar_summary(
-            {fmt::format("{}", fmt::join(mesh_case.inputs, " ")), conditions.reynolds, conditions.mach}, rows));
+    if (!mesh_case.quiet) print_result(polar_summary(conditions, rows));
     const auto loose = std::count_if(rows.begin(), rows.end(), [](const PolarRow& row) { return !row.steady; });
     if (loose > 0)
         throw MeshError(fmt::format("{} of {} angles are not steady; {}/polar.csv says which", loose, rows.size(),
@@ -64,15 +60,16 @@ void add_polar_command(CLI::App& app) {
     command
         ->add_option(
             "-o,--output", arguments->folder,
-            "folder of the cases, alpha_N, and of polar.csv, polar.json and polar.txt, which is as XFOIL writes "
-            "it; angles that are there are kept")
+            "folder of the cases, alpha_N, and of polar.csv, polar.json and, by flow, polar.txt, which is as XFOIL "
+            "writes it; angles that are there are kept")
         ->required()
         ->type_name("FOLDER")
         ->group("Polar");
     add_table_option(*command, option_table<SolverCaseOptions>(), "turbulence", arguments->turbulence)->group("Polar");
-    arguments->mesh = add_mesh_options(*command, {"output", "format", "parts", "span", "span-cells", "span-ends",
-                                                  "wall-distance", "stream", "wall-data", "report", "html"});
-    command->footer("Exit code 4: an angle is not steady, stalled, or failed; its row says so.");
+    arguments->mesh =
+        add_mesh_options(*command, {"output", "format", "order", "parts", "span", "span-cells", "span-ends",
+                                    "wall-distance", "stream", "wall-data", "report", "html"});
+    command->footer("Exit code 4: an angle is not steady, separated, stalled, or failed; its row says so.");
     command->callback([arguments] { polar(*arguments); });
 }
 

@@ -12,14 +12,18 @@ Geometry in_row(Geometry geometry, const CaseOptions& options) {
 }
 
 FoundFlow find_flow(Geometry geometry, const CaseOptions& options) {
-    const FlowConditions& conditions = options.conditions;
     geometry = in_row(std::move(geometry), options);
-    const ReferenceConditions reference = reference_conditions(conditions, reference_box(geometry));
+    const double chord = reference_conditions(options.conditions, reference_box(geometry)).chord;
     const FlowWalls walls = flow_walls(geometry, options);
-    FoundFlow found{.flow = solve_flow(prepare_surfaces(geometry, options.surface, reference.chord), conditions, walls),
-                    .has_layers = reference.reynolds.has_value()};
+    return find_flow(geometry, prepare_surfaces(geometry, options.surface, chord), options.conditions, walls);
+}
+
+FoundFlow find_flow(const Geometry& given, const Geometry& prepared, const FlowConditions& conditions,
+                    const FlowWalls& walls) {
+    FoundFlow found{.flow = solve_flow(prepared, conditions, walls),
+                    .has_layers = reference_conditions(conditions, reference_box(given)).reynolds.has_value()};
     if (is_beyond_critical(found.flow, conditions)) {
-        found.compressible = solve_compressible_flow(geometry, conditions);
+        found.compressible = solve_compressible_flow(given, conditions);
     } else if (conditions.mach) {
         found.flow = with_compressed_pressures(std::move(found.flow), *conditions.mach);
     }

@@ -22,4 +22,11 @@ FolderLock::~FolderLock() {
     if (file_ >= 0) ::close(file_);
 }
 
+std::vector<std::filesystem::path> entries_of(const std::filesystem::path& folder, const std::string& prefix) {
+    std::vector<std::filesystem::path> found;
+    for (const std::filesystem::directory_entry& entry : std::filesystem::directory_iterator(folder))
+        if (entry.path().filename().string().starts_with(prefix)) found.push_back(entry.path());
+    return found;
+}
+
 }  // namespace lamina::app

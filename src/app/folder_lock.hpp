@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 namespace lamina::app {
 
@@ -16,5 +18,8 @@ public:
 private:
     int file_;
 };
+
+/// Returns the paths of a folder whose names begin so, such as what killed processes have left.
+std::vector<std::filesystem::path> entries_of(const std::filesystem::path& folder, const std::string& prefix);
 
 }  // namespace lamina::app

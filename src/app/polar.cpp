@@ -68,7 +68,10 @@ PolarRow row_of_potential_flow(const Flow& flow, bool has_layers) {
     row.cd = forces.drag;
     row.cdp = forces.drag - forces.friction_drag;
     add_transition(flow, row);
-    if (!is_attached(flow)) row.state = "separated";
+    if (!is_attached(flow)) {
+        row.state = "separated";
+        row.steady = false;
+    }
     if (!flow.warnings.empty()) {
         row.state = "stalled";
         row.steady = false;
@@ -77,20 +80,20 @@ PolarRow row_of_potential_flow(const Flow& flow, bool has_layers) {
     return row;
 }
 
-/// `given` are the bodies as read, `prepared` those with smooth walls.
-PolarRow row_at(const Geometry& given, const Geometry& prepared, const FlowConditions& conditions,
-                const FlowWalls& walls) {
-    Flow flow = solve_flow(prepared, conditions, walls);
-    if (!flow.estimated && is_beyond_critical(flow, conditions)) {
-        const CompressibleFlow compressible = solve_compressible_flow(given, conditions);
-        PolarRow row{.alpha_deg = flow.alpha_deg, .state = compressible.converged ? "steady" : "not steady"};
-        row.steady = compressible.converged;
-        row.cl = compressible.lift;
-        row.cd = compressible.drag;
-        return row;
+PolarRow row_of_compressible_flow(const CompressibleFlow& flow) {
+    PolarRow row{.alpha_deg = flow.alpha_deg, .state = flow.has_layers ? "steady" : "inviscid"};
+    row.cl = flow.lift;
+    if (flow.has_layers) row.cd = flow.drag;
+    if (!flow.converged) {
+        row.state = "not steady";
+        row.steady = false;
     }
-    if (conditions.mach && !flow.estimated) flow = with_compressed_pressures(std::move(flow), *conditions.mach);
-    return row_of_potential_flow(flow, conditions.reynolds || conditions.velocity);
+    return row;
+}
+
+PolarRow row_of_flow(const FoundFlow& found) {
+    return found.compressible ? row_of_compressible_flow(*found.compressible)
+                              : row_of_potential_flow(found.flow, found.has_layers);
 }
 
 std::string column(const std::optional<double>& value, int width, int digits) {
@@ -101,16 +104,21 @@ Json json_number(const std::optional<double>& value) { return value ? Json(*valu
 
 }  // namespace
 
+PolarConditions polar_conditions(const Geometry& geometry, const ReferenceConditions& reference) {
+    PolarConditions conditions{"", reference.reynolds, reference.mach};
+    for (const Element& element : geometry.elements)
+        conditions.name += (conditions.name.empty() ? "" : " ") + element.name;
+    return conditions;
+}
+
 FlowPolar flow_polar(Geometry geometry, const CaseOptions& options) {
     geometry = in_row(std::move(geometry), options);
     const ReferenceConditions reference = reference_conditions(options.conditions, reference_box(geometry));
-    FlowPolar polar{{"", reference.reynolds, reference.mach}, {}};
-    for (const Element& element : geometry.elements)
-        polar.conditions.name += (polar.conditions.name.empty() ? "" : " ") + element.name;
+    FlowPolar polar{polar_conditions(geometry, reference), {}};
     const Geometry prepared = prepare_surfaces(geometry, options.surface, reference.chord);
     const FlowWalls walls = flow_walls(geometry, options);
     for (const FlowConditions& conditions : conditions_of_angles(options.conditions))
-        polar.rows.push_back(row_at(geometry, prepared, conditions, walls));
+        polar.rows.push_back(row_of_flow(find_flow(geometry, prepared, conditions, walls)));
     return polar;
 }
 
@@ -165,10 +173,9 @@ std::string polar_of_xfoil(const PolarConditions& conditions, std::span<const Po
         "  ------ -------- --------- --------- -------- -------- --------\n",
         conditions.name, conditions.mach.value_or(0), 1e-6 * conditions.reynolds.value_or(0));
     for (const PolarRow& row : rows)
-        if (row.steady && row.cl && row.cd)
+        if (row.steady && row.cl && row.cd && row.cdp && row.cm && row.top_xtr && row.bottom_xtr)
             text += fmt::format("{:8.3f} {:8.4f} {:9.5f} {:9.5f} {:8.4f} {:8.4f} {:8.4f}\n", row.alpha_deg, *row.cl,
-                                *row.cd, row.cdp.value_or(0), row.cm.value_or(0), row.top_xtr.value_or(1),
-                                row.bottom_xtr.value_or(1));
+                                *row.cd, *row.cdp, *row.cm, *row.top_xtr, *row.bottom_xtr);
     return text;
 }
 

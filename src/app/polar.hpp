@@ -17,7 +17,7 @@ namespace lamina::app {
 /// The forces at one angle of attack, and what can be said of them. Numbers that nobody has found are empty.
 struct PolarRow {
     double alpha_deg = 0;
-    std::string state;   ///< whether the numbers can be trusted, in one word: "attached", "steady", "stalled"
+    std::string state;   ///< whether the numbers can be trusted, in one word: "attached", "steady", "separated"
     bool steady = true;  ///< whether the state is one of a steady flow that the method is for
     std::optional<double> cl{}, cd{}, cdp{}, cm{};
     std::optional<double> top_xtr{},
@@ -37,8 +37,12 @@ struct FlowPolar {
     std::vector<PolarRow> rows;
 };
 
+/// Returns what the rows of a polar of these bodies have in common.
+PolarConditions polar_conditions(const Geometry& geometry, const ReferenceConditions& reference);
+
 /// Returns the polar of the flow before the mesh at the angles of the options (FlowConditions::alphas): potential flow with
-/// boundary layers, or compressible flow where it is faster than sound.
+/// boundary layers, or compressible flow where it is faster than sound. Rows whose flow leaves a wall ahead of the trailing
+/// edge are not steady: the method is none for separated flow.
 FlowPolar flow_polar(Geometry geometry, const CaseOptions& options);
 
 /// Returns the rows for people.
@@ -47,8 +51,8 @@ std::string polar_summary(const PolarConditions& conditions, std::span<const Pol
 std::string polar_csv(std::span<const PolarRow> rows);
 /// Returns the rows with their states as JSON.
 Json polar_json(const PolarConditions& conditions, std::span<const PolarRow> rows);
-/// Returns the polar in the format of XFOIL 6.99 (PACC), which has no states: rows without drag, and those that are not
-/// steady, are left out.
+/// Returns the polar in the format of XFOIL 6.99 (PACC), which has no states: rows that are not steady, and those of
+/// which a number is not known, are left out.
 std::string polar_of_xfoil(const PolarConditions& conditions, std::span<const PolarRow> rows);
 /// Returns the polar in the format that the extension of a file says: .csv, .json, or else XFOIL's.
 std::string polar_text(const std::string& file, const PolarConditions& conditions, std::span<const PolarRow> rows);

@@ -4,11 +4,11 @@
 
 #include <cstdio>
 #include <optional>
-#include <system_error>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <lamina/error.hpp>
 #include <lamina/files.hpp>
@@ -16,6 +16,7 @@
 #include <lamina/pipeline.hpp>
 
 #include "app/fingerprint.hpp"
+#include "app/flow_run.hpp"
 #include "app/folder_lock.hpp"
 #include "app/mesh_command_options.hpp"
 #include "app/mesh_run.hpp"
@@ -29,10 +30,14 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* row_file = "row.json";
-constexpr const char* polar_files[] = {"polar.csv", "polar.json", "polar.txt"};
+constexpr const char* folder_prefix = "alpha_";
+constexpr const char* part_prefix = "alpha.part-";
+/// Solvers find no part of the drag, no moment and no transition, which the format of XFOIL has.
+constexpr const char* files_of_solver[] = {"polar.csv", "polar.json"};
+constexpr const char* files_of_flow[] = {"polar.csv", "polar.json", "polar.txt"};
 
-void write_polar(const fs::path& folder, const PolarConditions& conditions, std::span<const PolarRow> rows) {
-    for (const char* name : polar_files) write_file(folder / name, polar_text(name, conditions, rows));
+void write_polar(const fs::path& folder, std::span<const char* const> files, const FlowPolar& polar) {
+    for (const char* name : files) write_file(folder / name, polar_text(name, polar.conditions, polar.rows));
 }
 
 /// A row with what a later angle begins from.
@@ -61,84 +66,113 @@ public:
           case_(mesh_case),
           solver_(solver),
           guard_(guard),
+          digits_(fingerprint(mesh_case) + settings.identity),
+          geometry_(read_geometry(mesh_case.inputs, mesh_case.options.geometry)),
           angles_(values_of(*mesh_case.options.conditions.alphas)) {}
 
-    std::vector<PolarRow> run() {
-        std::vector<PolarRow> rows;
-        std::optional<std::pair<fs::path, SolvedForces>> last_steady;
-        for (const double alpha : angles_) {
-            const fs::path folder = folder_of(alpha);
-            std::optional<SolvedAngle> angle = read_angle(folder, alpha);
-            if (!angle) angle = solve(alpha, last_steady);
-            if (angle->row.steady) last_steady.emplace(folder, angle->forces);
-            rows.push_back(angle->row);
-            write_polar(settings_.folder, conditions(), rows);
+    FlowPolar run() {
+        const std::vector<std::optional<SolvedAngle>> before = angles_before();
+        // What killed processes have left.
+        for (const fs::path& left : entries_of(settings_.folder, part_prefix)) fs::remove_all(left);
+        FlowPolar polar{conditions(), {}};
+        for (std::size_t i = 0; i < angles_.size(); ++i) {
+            const SolvedAngle angle = before[i] ? *before[i] : solve(angles_[i]);
+            if (angle.row.steady) last_steady_ = {folder_of(angles_[i]), angle.forces};
+            polar.rows.push_back(angle.row);
+            write_polar(settings_.folder, files_of_solver, polar);
         }
-        return rows;
-    }
-    PolarConditions conditions() const {
-        return {fmt::format("{}", fmt::join(case_.inputs, " ")), case_.options.conditions.reynolds,
-                case_.options.conditions.mach};
+        return polar;
     }
 
 private:
-    fs::path folder_of(double alpha) const { return settings_.folder / fmt::format("alpha_{}", alpha); }
+    PolarConditions conditions() const {
+        const Geometry bodies = in_row(geometry_, case_.options);
+        return polar_conditions(bodies, reference_conditions(case_.options.conditions, reference_box(bodies)));
+    }
+    fs::path folder_of(double alpha) const { return settings_.folder / fmt::format("{}{}", folder_prefix, alpha); }
 
     /// Returns the digits of all that an angle depends on. One mesh serves all, so that it is the range as a whole, too.
     std::string digits_of(double alpha) const {
-        return text_of(hashed(no_text, fmt::format("{}{}\n{}", fingerprint(case_), settings_.identity, alpha)));
+        return text_of(hashed(no_text, fmt::format("{}\n{}", digits_, alpha)));
     }
 
-    std::optional<SolvedAngle> read_angle(const fs::path& folder, double alpha) const {
-        std::error_code ignored;
-        if (!fs::exists(folder, ignored)) return {};
-        const auto refuse = [&](const char* reason) {
-            throw UsageError(fmt::format("{}: {}: give another folder, or remove it", folder.string(), reason));
-        };
-        if (!fs::exists(folder / row_file, ignored)) refuse("exists, and is no angle of this command");
-        const Json json = Json::parse(read_file(folder / row_file), nullptr, false);
+    /// Returns the angles that are complete already. Throws UsageError where one is not of these options.
+    std::vector<std::optional<SolvedAngle>> angles_before() const {
+        std::vector<std::optional<SolvedAngle>> before;
+        for (const double alpha : angles_) {
+            SolvedForces forces;
+            const bool exists =
+                read_record(folder_of(alpha) / row_file, "angle", digits_of(alpha), [&](const Json& json) {
+                    forces.cl = json.at("CL");
+                    forces.cd = json.at("CD");
+                    forces.steady = json.at("steady");
+                });
+            before.push_back(exists ? std::optional(solved_angle(alpha, forces)) : std::nullopt);
+        }
+        return before;
+    }
+
+    void say(const std::string& text) const {
+        if (!case_.quiet) std::fputs(fmt::format("lamina: {}\n", text).c_str(), stderr);
+    }
+
+    /// Solves at an angle in a folder of another name, which gets the name of the angle in the end, with ".failed" where the
+    /// solver fails.
+    SolvedAngle solve(double alpha) {
+        if (!mesh_) make_mesh();
+        const fs::path folder = settings_.folder / fmt::format("{}{}", part_prefix, ::getpid()),
+                       failed = folder_of(alpha).string() + ".failed";
+        fs::remove_all(failed);
+        write_case(alpha, folder);
+        say(fmt::format("{} degrees, in {}", alpha, folder.string()));
         SolvedForces forces;
         try {
-            if (json.at("fingerprint") != digits_of(alpha)) refuse("was made with other options or inputs");
-            forces.cl = json.at("CL");
-            forces.cd = json.at("CD");
-            forces.steady = json.at("steady");
-        } catch (const Json::exception&) {
-            throw InputError({(folder / row_file).string(), 0, {}}, "is no record of an angle");
+            forces = solver_.run(folder, guard_);
+        } catch (const IoError& error) {
+            fs::rename(folder, failed);
+            PolarRow row{.alpha_deg = alpha, .state = "failed"};
+            row.steady = false;
+            row.note = moved(error.what(), folder, failed);
+            return {row, {}};
         }
-        return solved_angle(alpha, forces);
+        const SolvedAngle angle = solved_angle(alpha, forces);
+        write_file(folder / row_file, to_text(json_of(angle, digits_of(alpha))));
+        fs::rename(folder, folder_of(alpha));
+        return angle;
     }
 
-    /// Solves at an angle in a folder of another name, which gets the name of the angle in the end.
-    SolvedAngle solve(double alpha, const std::optional<std::pair<fs::path, SolvedForces>>& last_steady) {
-        if (!mesh_) make_mesh();
-        const fs::path folder = settings_.folder / fmt::format("alpha.part-{}", ::getpid());
-        fs::remove_all(folder);
-        fs::create_directories(folder);
+    /// Returns a text with the new name of a folder in place of its former one.
+    static std::string moved(std::string text, const fs::path& from, const fs::path& to) {
+        if (const std::size_t at = text.find(from.string()); at != std::string::npos)
+            text.replace(at, from.string().size(), to.string());
+        return text;
+    }
+
+    /// Writes the case of an angle, which begins with the flow of the last steady one, or from rest where that cannot be
+    /// read.
+    void write_case(double alpha, const fs::path& folder) {
         MeshCase of_angle = case_;
         of_angle.options.conditions.alpha_deg = alpha;
         of_angle.options.conditions.alphas.reset();
         mesh_->conditions.alpha_deg = alpha;
-        write_mesh(mesh_->mesh, folder / "mesh.vtu");
-        solver_.write_case(*mesh_, of_angle, folder);
-        if (last_steady) solver_.start_from(last_steady->first, last_steady->second, folder);
-        if (!case_.quiet)
-            std::fputs(fmt::format("lamina: {} degrees, in {}\n", alpha, folder.string()).c_str(), stderr);
+        const auto write = [&] {
+            fs::remove_all(folder);
+            fs::create_directories(folder);
+            write_mesh(mesh_->mesh, folder / "mesh.vtu");
+            solver_.write_case(*mesh_, of_angle, folder);
+        };
+        write();
+        if (!last_steady_) return;
         try {
-            const SolvedAngle angle = solved_angle(alpha, solver_.run(folder, guard_));
-            write_file(folder / row_file, to_text(json_of(angle, digits_of(alpha))));
-            fs::rename(folder, folder_of(alpha));
-            return angle;
-        } catch (const IoError& error) {
-            PolarRow row{.alpha_deg = alpha, .state = "failed"};
-            row.steady = false;
-            row.note = error.what();
-            return {row, {}};
+            solver_.start_from(last_steady_->first, last_steady_->second, folder);
+        } catch (const Error& error) {
+            say(fmt::format("{} degrees begin from rest: {}", alpha, error.what()));
+            write();
         }
     }
 
     void make_mesh() {
-        mesh_ = generate_mesh(case_.inputs, options_with_files(case_));
+        mesh_ = generate_mesh(geometry_, options_with_files(case_));
         const std::vector<Warning> of_solver = solver_.warnings(*mesh_);
         mesh_->warnings.insert(mesh_->warnings.end(), of_solver.begin(), of_solver.end());
         print_warnings(mesh_->warnings);
@@ -150,14 +184,17 @@ private:
     const MeshCase& case_;
     const AdaptSolver& solver_;
     SignalGuard& guard_;
+    std::string digits_;
+    Geometry geometry_;
     std::vector<double> angles_;
+    std::optional<std::pair<fs::path, SolvedForces>> last_steady_;
     std::optional<MeshResult> mesh_;
 };
 
 /// Creates the folder, in which the files of the polar can be written then.
-std::vector<RunFile> prepare_folder(const fs::path& folder) {
+std::vector<RunFile> prepare_folder(const fs::path& folder, std::span<const char* const> names) {
     std::vector<RunFile> files;
-    for (const char* name : polar_files) files.push_back({folder / name, "option --output"});
+    for (const char* name : names) files.push_back({folder / name, "option --output"});
     create_folders_above(files.front().path);
     check_folder_writable(files.front().path);
     return files;
@@ -165,19 +202,23 @@ std::vector<RunFile> prepare_folder(const fs::path& folder) {
 
 }  // namespace
 
-std::vector<PolarRow> run_polar_of_flow(const PolarSettings& settings, const MeshCase& mesh_case) {
+FlowPolar run_polar_of_flow(const PolarSettings& settings, const MeshCase& mesh_case) {
     require_consistent(mesh_case);
     require_inputs(mesh_case);
-    const SignalGuard guard(prepare_folder(settings.folder));
+    const SignalGuard guard(prepare_folder(settings.folder, files_of_flow));
+    const FolderLock lock(settings.folder);
+    if (!entries_of(settings.folder, folder_prefix).empty())
+        throw UsageError(settings.folder.string() + ": holds the polar of a solver: give another folder");
     const CaseOptions& options = mesh_case.options;
     const Geometry geometry = read_geometry(mesh_case.inputs, options.geometry);
-    const FlowPolar polar = flow_polar(geometry, options);
-    write_polar(settings.folder, polar.conditions, polar.rows);
-    return polar.rows;
+    FlowPolar polar = flow_polar(geometry, options);
+    write_polar(settings.folder, files_of_flow, polar);
+    return polar;
 }
 
-std::vector<PolarRow> run_polar_of_solver(const PolarSettings& settings, MeshCase mesh_case, AdaptSolver& solver) {
+FlowPolar run_polar_of_solver(const PolarSettings& settings, MeshCase mesh_case, AdaptSolver& solver) {
     require_whole(mesh_case);
+    require_straight(mesh_case);
     require_consistent(mesh_case);
     // What the solver prefers does not depend on the angle, and it knows no ranges.
     const std::optional<ValueRange> alphas = std::exchange(mesh_case.options.conditions.alphas, {});
@@ -185,7 +226,7 @@ std::vector<PolarRow> run_polar_of_solver(const PolarSettings& settings, MeshCas
     mesh_case.options.conditions.alphas = alphas;
     require_inputs(mesh_case);
     solver.require_programs();
-    SignalGuard guard(prepare_folder(settings.folder));
+    SignalGuard guard(prepare_folder(settings.folder, files_of_solver));
     const FolderLock lock(settings.folder);
     return PolarLoop(settings, mesh_case, solver, guard).run();
 }

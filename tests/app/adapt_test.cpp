@@ -212,6 +212,11 @@ TEST(AdaptCommand, TakesItsCaseAsOtherCommandsDo) {
     std::vector<std::string> contradiction = adapt();
     contradiction[1] = "both.toml";
     expect_refused(folder, contradiction, usage, "exclude each other");
+    folder.write("cells.toml", "input = ['naca:0012']\ncells = 9000\n");
+    std::vector<std::string> cells = adapt();
+    cells[1] = "cells.toml";
+    expect_refused(folder, cells, usage, "cells: the loop aims at vertices");
+    expect_refused(folder, adapt({"--alpha", "0:4:2"}), usage, "lamina polar");
 }
 
 TEST(AdaptCommand, StrictRunsEndBeforeTheSolver) {

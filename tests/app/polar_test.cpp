@@ -1,6 +1,7 @@
 // Polars: lamina flow with a range of angles, lamina polar, lamina yplus, ranges in sweeps. A script stands in for the solver.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -83,6 +84,30 @@ TEST(PolarCommand, WritesThePolarOfTheFlowAndSaysWhereItIsStalled) {
     EXPECT_NE(folder.read("out/polar.csv").find(",stalled,no"), std::string::npos);
     const TemporaryFolder empty;
     expect_refused(empty, {"polar", "naca:0012", "--alpha", "4", "-o", "out"}, usage, "a polar needs a range");
+    expect_refused(empty, {"polar", "naca:0012", "--alpha", "0:4", "--order", "2", "-o", "out"}, usage, "--order");
+}
+
+TEST(PolarCommand, SeparatedFlowIsNotSteady) {
+    const TemporaryFolder folder;
+    const ProgramRun run = run_lamina(
+        folder, {"polar", "naca:0012", "--alpha", "8:14:6", "--velocity", "45", "--viscosity", "1.5e-5", "-o", "out"});
+    EXPECT_EQ(run.exit_code, mesh_failed);
+    EXPECT_NE(run.err.find("1 of 2 angles are not steady"), std::string::npos) << run.err;
+    EXPECT_NE(folder.read("out/polar.csv").find(",separated,no"), std::string::npos);
+    EXPECT_EQ(lines_of(folder.read("out/polar.txt")).size(), 12u + 1u);
+    // Velocity and viscosity are a Reynolds number, too.
+    EXPECT_NE(run.out.find("Reynolds number 3e+06"), std::string::npos) << run.out;
+    EXPECT_EQ(nlohmann::json::parse(folder.read("out/polar.json"))["reynolds"], 3e6);
+}
+
+TEST(PolarCommand, DragWithoutLayersIsNoDrag) {
+    const TemporaryFolder folder;
+    const ProgramRun run = run_lamina(folder, {"polar", "naca:0012", "--alpha", "0:0.5", "--mach", "0.8", "-o", "out"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const std::vector<std::string> rows = lines_of(folder.read("out/polar.csv"));
+    ASSERT_EQ(rows.size(), 2u);
+    EXPECT_NE(rows[1].find(",,,,,,inviscid,yes"), std::string::npos) << rows[1];
+    EXPECT_EQ(lines_of(folder.read("out/polar.txt")).size(), 12u);
 }
 
 TEST(PolarCommand, RunsASolverAtEachAngleAndGoesOnWhereItWas) {
@@ -111,6 +136,49 @@ TEST(PolarCommand, RunsASolverAtEachAngleAndGoesOnWhereItWas) {
     EXPECT_EQ(run_lamina(folder, arguments).exit_code, mesh_failed);
     EXPECT_EQ(lines_of(folder.read("calls")).size(), 5u);
     EXPECT_EQ(lines_of(folder.read("out/polar.csv")), rows);
+    // The format of XFOIL has columns that no solver fills. Its polar is not replaced by that of the flow.
+    EXPECT_FALSE(fs::exists(folder / "out/polar.txt"));
+    EXPECT_EQ(nlohmann::json::parse(folder.read("out/polar.json"))["name"], "naca:0012");
+    expect_refused(folder, {"polar", "naca:0012", "--alpha", "0:6:2", "-o", "out"}, usage, "the polar of a solver");
+    EXPECT_EQ(lines_of(folder.read("out/polar.csv")), rows);
+    // Angles of other options are found before any is solved.
+    fs::remove_all(folder / "out/alpha_0");
+    std::vector<std::string> others = arguments;
+    *std::find(others.begin(), others.end(), "10") = "12";
+    expect_refused(folder, others, usage, "alpha_2: was made with other options");
+    EXPECT_EQ(lines_of(folder.read("calls")).size(), 5u);
+}
+
+TEST(PolarCommand, FailedAnglesStayUntilTheyAreTriedAgain) {
+    const TemporaryFolder folder;
+    const std::string solves = "#!/bin/sh\npython3 " LAMINA_SOLUTION_SCRIPT
+                               " mesh.su2 solution.vtu || exit 9\nprintf 'CL,CD,steady\\n1,0.01,yes\\n' >forces.csv\n";
+    folder.write("solve.sh", solves + "grep -q '^alpha = 2' case.toml && exit 7\nexit 0\n");
+    fs::create_directories(folder / "out/alpha.part-1");
+    const std::vector<std::string> arguments{
+        "polar", "naca:0012:60", "--alpha", "0:4:2", "--solver", "sh ../../solve.sh", "--far-field", "4", "-o", "out"};
+    const ProgramRun run = run_lamina(folder, arguments);
+    EXPECT_EQ(run.exit_code, mesh_failed) << run.err;
+    EXPECT_FALSE(fs::exists(folder / "out/alpha.part-1"));
+    const auto polar = nlohmann::json::parse(folder.read("out/polar.json"));
+    EXPECT_EQ(polar["rows"][1]["state"], "failed");
+    EXPECT_EQ(polar["rows"][1]["note"], "out/alpha_2.failed/log.solver: the solver ended with exit code 7");
+    EXPECT_TRUE(fs::exists(folder / "out/alpha_2.failed/log.solver"));
+    EXPECT_EQ(polar["rows"][2]["state"], "steady");
+    // The next one begins from rest where the flow before it cannot be read.
+    folder.write("solve.sh", solves);
+    folder.write("out/alpha_0/solution.vtu", "nothing");
+    const ProgramRun again = run_lamina(folder, arguments);
+    EXPECT_EQ(again.exit_code, 0) << again.err;
+    EXPECT_NE(again.err.find("2 degrees begin from rest"), std::string::npos) << again.err;
+    EXPECT_FALSE(fs::exists(folder / "out/alpha_2.failed"));
+    EXPECT_TRUE(fs::exists(folder / "out/alpha_2/row.json"));
+}
+
+TEST(PolarCommand, RefusesCurvedCellsOfCaseFiles) {
+    const TemporaryFolder folder;
+    folder.write("curved.toml", "input = 'naca:0012'\norder = 2\nalpha = '0:2'\n");
+    expect_refused(folder, {"polar", "curved.toml", "--solver", "true", "-o", "out"}, usage, "curved cells");
 }
 
 TEST(YPlusCommand, ComputesFirstHeightsWithoutASection) {
@@ -123,6 +191,7 @@ TEST(YPlusCommand, ComputesFirstHeightsWithoutASection) {
     ASSERT_EQ(back.exit_code, 0) << back.err;
     EXPECT_NE(back.out.find("y+          2"), std::string::npos) << back.out;
     expect_refused(folder, {"yplus"}, usage, "reynolds");
+    expect_refused(folder, {"yplus", "--reynolds", "1e200", "--y-plus", "1e-200"}, usage, "y_plus");
     expect_refused(folder, {"yplus", "--reynolds", "1e6", "--y-plus", "1", "--first-height", "1e-5"}, usage,
                    "exclude each other");
 }
@@ -134,6 +203,7 @@ TEST(MeshOfARange, ServesAnglesAndABudget) {
                             "--vertices", "20000", "-o", "a.su2", "--report", "a.json"});
     ASSERT_EQ(run.exit_code, 0) << run.err;
     EXPECT_NE(run.out.find("one mesh for all angles"), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find("angle of attack 0:12:4 deg (given), 8 where one is needed"), std::string::npos) << run.out;
     const auto report = nlohmann::json::parse(folder.read("a.json"));
     EXPECT_NEAR(report["vertices"].get<double>(), 20000, 0.03 * 20000);
     EXPECT_NE(report["scale"].get<double>(), 1);
