@@ -1,5 +1,5 @@
-// Reads Gmsh's MSH format, versions 2.0 to 2.2 and 4.1, ASCII and binary: plane meshes of lines, triangles and quadrilaterals
-// of one order from 1 to 4. Points (element type 15) and unknown sections are skipped.
+// Reads Gmsh's MSH format, versions 2.0 to 2.2 and 4.1, ASCII and binary: plane meshes of lines, triangles and
+// quadrilaterals of one order from 1 to 4. Points (element type 15) and unknown sections are skipped.
 // Source: Gmsh reference manual, "Gmsh mesh file formats".
 //
 // The lines of a physical curve become a marker with the name of the group; lines without a group are left out. Where
@@ -343,22 +343,27 @@ private:
         }
         const std::vector<Marker> before = order_ > 1 ? mesh_.markers : std::vector<Marker>{};
         orient_markers(mesh_);
-        if (order_ > 1) separate_nodes(before);
+        if (order_ <= 1) return;
+        turn_marker_nodes(before);
+        separate_nodes();
     }
 
-    /// Turns the nodes of marker edges as the edges were turned, and makes the nodes that are no corner of any cell those of
-    /// curved cells. `before` holds the markers as the file has them.
-    void separate_nodes(const std::vector<Marker>& before) {
-        curved_.order = order_;
+    /// Turns the nodes of marker edges as the edges were turned. `before` holds the markers as the file has them.
+    void turn_marker_nodes(const std::vector<Marker>& before) {
         auto nodes = curved_.marker_nodes.begin();
         for (std::size_t m = 0; m < before.size(); ++m)
             for (std::size_t i = 0; i < before[m].edges.size(); ++i, nodes += order_ - 1)
                 if (mesh_.markers[m].edges[i] != before[m].edges[i]) std::reverse(nodes, nodes + (order_ - 1));
+    }
+    template <class F>
+    void for_each_curved_list(F&& f) {
+        for (auto* list : {&curved_.triangle_nodes, &curved_.quad_nodes, &curved_.marker_nodes}) f(*list);
+    }
+    /// Makes the nodes that are no corner of any cell those of curved cells.
+    void separate_nodes() {
+        curved_.order = order_;
         std::vector<bool> is_curved(mesh_.points.size());
-        const auto for_each_list = [&](auto&& f) {
-            for (auto* list : {&curved_.triangle_nodes, &curved_.quad_nodes, &curved_.marker_nodes}) f(*list);
-        };
-        for_each_list([&](const std::vector<VertexId>& list) {
+        for_each_curved_list([&](const std::vector<VertexId>& list) {
             for (const VertexId v : list) is_curved[v.index()] = true;
         });
         std::vector<Point> vertices;
@@ -369,6 +374,13 @@ private:
             (is_curved[i] ? curved_.points : vertices).push_back(mesh_.points[i]);
         }
         mesh_.points = std::move(vertices);
+        renumber_corners(is_curved, number);
+        for_each_curved_list([&](std::vector<VertexId>& list) {
+            for (VertexId& v : list) v = number[v.index()];
+        });
+    }
+    /// Gives the corners of all cells and edges their new numbers.
+    void renumber_corners(const std::vector<bool>& is_curved, const std::vector<VertexId>& number) {
         const auto renumber = [&](VertexId& v) {
             if (is_curved[v.index()]) in_.fail("a node is the corner of one element and no corner of another one");
             v = number[v.index()];
@@ -380,9 +392,6 @@ private:
                 renumber(edge.a);
                 renumber(edge.b);
             }
-        for_each_list([&](std::vector<VertexId>& list) {
-            for (VertexId& v : list) v = number[v.index()];
-        });
     }
 
     ByteReader in_;

@@ -28,18 +28,18 @@ void add_rings(unsigned corners, unsigned first, unsigned order, Lattice& lattic
     if (order >= less) add_rings(corners, first + 1, order - less, lattice);
 }
 
-using LatticesByOrder = std::array<Lattice, max_order + 1>;
+using LatticesByOrder = std::array<Lattice, max_cell_order + 1>;
 
 LatticesByOrder make_lattices(unsigned corners) {
     LatticesByOrder lattices;
-    for (unsigned order = 1; order <= max_order; ++order) add_rings(corners, 0, order, lattices[order]);
+    for (unsigned order = 1; order <= max_cell_order; ++order) add_rings(corners, 0, order, lattices[order]);
     return lattices;
 }
 
 }  // namespace
 
 std::span<const LatticePlace> lattice_of_cell(unsigned corners, unsigned order) {
-    assert((corners == 3 || corners == 4) && order >= 1 && order <= max_order);
+    assert((corners == 3 || corners == 4) && order >= 1 && order <= max_cell_order);
     static const LatticesByOrder triangles = make_lattices(3), quads = make_lattices(4);
     return (corners == 3 ? triangles : quads)[order];
 }

@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include <lamina/curved_mesh.hpp>
 #include <lamina/export.hpp>
 
 namespace lamina::mesh {
@@ -13,8 +14,6 @@ struct LatticePlace {
     unsigned i, j;
 };
 
-inline constexpr unsigned max_order = 4;
-
 /// Returns the number of nodes of a cell with so many corners: all of it, corners included.
 constexpr unsigned nodes_of_cell(unsigned corners, unsigned order) {
     return corners == 3 ? (order + 1) * (order + 2) / 2 : (order + 1) * (order + 1);
@@ -22,7 +21,7 @@ constexpr unsigned nodes_of_cell(unsigned corners, unsigned order) {
 
 /// Returns the places of the nodes of a cell with 3 or 4 corners, counter-clockwise along its border from the first corner
 /// on: the corners, then those within each edge from one corner to the next, then those inside, ordered likewise.
-/// Precondition: 1 <= order <= max_order.
+/// Precondition: 1 <= order <= max_cell_order.
 LAMINA_EXPORT std::span<const LatticePlace> lattice_of_cell(unsigned corners, unsigned order);
 
 }  // namespace lamina::mesh

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -45,10 +46,10 @@ struct ColumnCell {
 
 /// What the edge of a wall bends.
 struct BentColumn {
-    std::vector<Front> fronts;                ///< from the wall's edge up
-    std::vector<ColumnCell> cells;            ///< between them
-    double height = 0;                        ///< where the bend ends
-    std::array<Point, max_order + 1> bend{};  ///< at the nodes of the wall's edge, from u = 0 to 1; 0 at both
+    std::vector<Front> fronts;                     ///< from the wall's edge up
+    std::vector<ColumnCell> cells;                 ///< between them
+    double height = 0;                             ///< where the bend ends
+    std::array<Point, max_cell_order + 1> bend{};  ///< at the nodes of the wall's edge, from u = 0 to 1; 0 at both
 };
 
 // ---- columns ---------------------------------------------------------------------------------------------------------
@@ -102,8 +103,8 @@ private:
         return beyond == CellColumnNumbers::none ? Across::no_column : Across::other_column;
     }
 
-    /// Returns the edge on the far side of the cell beyond a front, as an edge of that cell, and adds the cell. A column goes on
-    /// through a quadrilateral, and through a triangle across the edge that is not on a ray:
+    /// Returns the edge on the far side of the cell beyond a front, as an edge of that cell, and adds the cell. A column
+    /// goes on through a quadrilateral, and through a triangle across the edge that is not on a ray:
     ///
     ///      4-----3       4-----3      The front 1-2 is followed by 4-3 through the quadrilateral. Through triangles it is
     ///      |     |       |  .  |      followed by 1-3, since the cell across 2-3 is of another column, and then by 4-3.
@@ -147,7 +148,10 @@ private:
 };
 
 /// Returns the share of its bend that a column has at a height.
-double share_at(const BentColumn& column, double height) { return std::max(0.0, 1 - height / column.height); }
+double share_at(const BentColumn& column, double height) {
+    assert(column.height > 0);
+    return std::max(0.0, 1 - height / column.height);
+}
 
 // ---- nodes -----------------------------------------------------------------------------------------------------------
 
@@ -374,13 +378,54 @@ Point on_edge(std::span<const Point> nodes, double t) {
 /// Returns how far an edge of a wall is off the curve, at the nodes and halfway between them.
 double distance_from_curve(const MeshView& mesh, const WallCurve& wall, const BentColumn& column, unsigned order) {
     const Point a = mesh.points[wall.edge.a.index()], b = mesh.points[wall.edge.b.index()];
-    std::array<Point, max_order + 1> nodes{};
+    std::array<Point, max_cell_order + 1> nodes{};
     for (unsigned k = 0; k <= order; ++k) nodes[k] = a + (static_cast<double>(k) / order) * (b - a) + column.bend[k];
     double largest = 0;
     for (std::size_t i = 0; i < wall.between.size(); ++i)
         largest = std::max(largest, distance(wall.between[i], on_edge(std::span(nodes).first(order + 1),
                                                                       static_cast<double>(i + 1) / (2.0 * order))));
     return largest;
+}
+
+/// Follows the column over each wall and bends it by the wall's curve.
+std::vector<BentColumn> bent_columns(const MeshView& mesh, const Adjacency& adjacency, unsigned order,
+                                     std::span<const WallCurve> walls, const CellColumnNumbers& numbers) {
+    const ColumnSearch search(mesh, adjacency, numbers);
+    std::vector<Segment> edges;
+    for (const WallCurve& wall : walls) edges.push_back(wall.edge);
+    const std::vector<std::uint32_t> found = find_edges(mesh, edges);
+    std::vector<BentColumn> columns(walls.size());
+    core::parallel_for(walls.size(), 64, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t w = begin; w < end; ++w) {
+            columns[w] = search.follow(found[w]);
+            set_bend(columns[w], mesh, walls[w], order, 1);
+        }
+    });
+    return columns;
+}
+
+/// Returns the columns that bend a doubtful cell, ascending.
+std::vector<std::uint32_t> columns_at_fault(const CellProofs& proofs, const NodePlacer& placer,
+                                            const Adjacency& adjacency) {
+    std::vector<std::uint32_t> at_fault;
+    for (const DoubtfulCell& doubtful : proofs.doubtful)
+        placer.for_each_column(doubtful.cell, adjacency, [&](std::uint32_t c) { at_fault.push_back(c); });
+    std::sort(at_fault.begin(), at_fault.end());
+    at_fault.erase(std::unique(at_fault.begin(), at_fault.end()), at_fault.end());
+    return at_fault;
+}
+
+/// Returns how well walls are followed, whose bends were halved so many times.
+CurvingSummary summary_of(const MeshView& mesh, std::span<const WallCurve> walls, std::span<const BentColumn> columns,
+                          std::span<const int> halvings, unsigned order) {
+    CurvingSummary summary;
+    for (std::size_t w = 0; w < walls.size(); ++w) {
+        const double off = distance_from_curve(mesh, walls[w], columns[w], order);
+        ++(halvings[w] > 0 ? summary.reduced_edges : summary.curved_edges);
+        double& largest = halvings[w] > 0 ? summary.reduced_distance : summary.wall_distance;
+        largest = std::max(largest, off);
+    }
+    return summary;
 }
 
 }  // namespace
@@ -397,18 +442,7 @@ CurvedCells curve_cells(const MeshView& mesh, unsigned order, std::span<const Wa
                         const CellColumnNumbers& numbers_of_columns) {
     constexpr int max_halvings_of_bend = 6;
     const Adjacency adjacency = find_adjacency(mesh);
-    const ColumnSearch search(mesh, adjacency, numbers_of_columns);
-    std::vector<Segment> edges;
-    for (const WallCurve& wall : walls) edges.push_back(wall.edge);
-    const std::vector<std::uint32_t> found = find_edges(mesh, edges);
-    std::vector<BentColumn> columns(walls.size());
-    core::parallel_for(walls.size(), 64, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t w = begin; w < end; ++w) {
-            columns[w] = search.follow(found[w]);
-            set_bend(columns[w], mesh, walls[w], order, 1);
-        }
-    });
-
+    std::vector<BentColumn> columns = bent_columns(mesh, adjacency, order, walls, numbers_of_columns);
     const NodeNumbers numbers(mesh, adjacency, order);
     CurvedCells curved{number_nodes(mesh, numbers, order), {}, {}};
     const NodePlacer placer(mesh, numbers, columns, order);
@@ -421,11 +455,7 @@ CurvedCells curve_cells(const MeshView& mesh, unsigned order, std::span<const Wa
             curved.check = check_of(mesh, proofs);
             break;
         }
-        std::vector<std::uint32_t> at_fault;
-        for (const DoubtfulCell& doubtful : proofs.doubtful)
-            placer.for_each_column(doubtful.cell, adjacency, [&](std::uint32_t c) { at_fault.push_back(c); });
-        std::sort(at_fault.begin(), at_fault.end());
-        at_fault.erase(std::unique(at_fault.begin(), at_fault.end()), at_fault.end());
+        std::vector<std::uint32_t> at_fault = columns_at_fault(proofs, placer, adjacency);
         std::erase_if(at_fault, [&](std::uint32_t c) { return halvings[c] == max_halvings_of_bend; });
         if (at_fault.empty()) {
             const CurvedCheck check = check_of(mesh, proofs);
@@ -437,12 +467,7 @@ CurvedCells curve_cells(const MeshView& mesh, unsigned order, std::span<const Wa
             set_bend(columns[c], mesh, walls[c], order, share);
         }
     }
-    for (std::size_t w = 0; w < walls.size(); ++w) {
-        const double off = distance_from_curve(mesh, walls[w], columns[w], order);
-        ++(halvings[w] > 0 ? curved.summary.reduced_edges : curved.summary.curved_edges);
-        double& largest = halvings[w] > 0 ? curved.summary.reduced_distance : curved.summary.wall_distance;
-        largest = std::max(largest, off);
-    }
+    curved.summary = summary_of(mesh, walls, columns, halvings, order);
     return curved;
 }
 

@@ -31,8 +31,8 @@ struct CurvedCells {
     CurvedCheck check;  ///< without defects
 };
 
-/// Makes the cells of a mesh curved cells of order p that follow the walls, and proves all of them valid. Parallel; the result
-/// does not depend on the number of threads.
+/// Makes the cells of a mesh curved cells of order p that follow the walls, and proves all of them valid. Parallel; the
+/// result does not depend on the number of threads.
 ///
 /// The bend d of a wall's edge, the distance between curve and chord at its nodes, goes up the column of cells over it. A
 /// node at the share u along the column and the height h above the wall moves by (1 - h / H) d(u), where H is the height of
@@ -42,7 +42,7 @@ struct CurvedCells {
 ///
 /// Where a cell cannot be proved valid, the bends of the edges that move it are halved, and become 0 after six times.
 /// Throws MeshError where a cell is not valid even so. Precondition: check_mesh() finds no defect; the edges are on the
-/// boundary, each given once.
+/// boundary, each given once; quadrilaterals at them are in columns.
 LAMINA_EXPORT CurvedCells curve_cells(const MeshView& mesh, unsigned order, std::span<const WallCurve> walls,
                                       const CellColumnNumbers& columns);
 

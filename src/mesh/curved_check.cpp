@@ -1,6 +1,5 @@
 // check_curved(): whether the lists of nodes fit the mesh, and whether each cell is proved valid.
 #include <algorithm>
-#include <cmath>
 #include <span>
 #include <string>
 #include <utility>
@@ -9,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <lamina/curved_mesh.hpp>
+#include <lamina/predicates.hpp>
 
 #include "mesh/cell_text.hpp"
 #include "mesh/curved_nodes.hpp"
@@ -37,7 +37,7 @@ bool check_lists(const MeshView& mesh, const CurvedNodes& nodes, DefectList& def
             if (v.index() < mesh.points.size() || v.index() >= mesh.points.size() + nodes.points.size())
                 return fail(fmt::format("node {} is out of range", v.value));
     for (const Point p : nodes.points)
-        if (!std::isfinite(p.x) || !std::isfinite(p.y)) return fail("a node without finite coordinates");
+        if (!in_exact_range(p)) return fail("a node with coordinates outside the exact range");
     return true;
 }
 

@@ -11,8 +11,7 @@
 
 namespace lamina::mesh {
 
-static_assert(max_order == max_cell_order);
-using CellNodes = std::array<Point, nodes_of_cell(4, max_order)>;
+using CellNodes = std::array<Point, nodes_of_cell(4, max_cell_order)>;
 
 /// Returns the numbers of the nodes of a cell beside its corners.
 inline std::span<const VertexId> inner_nodes(const MeshView& mesh, const CurvedNodes& nodes, std::size_t cell) {

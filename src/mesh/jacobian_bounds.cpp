@@ -74,15 +74,15 @@ struct DeterminantRule {
 };
 
 /// A homogeneous polynomial in three variables of degree d: the coefficient of x^i y^j z^(d-i-j) at [i][j].
-using Homogeneous = std::array<std::array<double, max_order + 1>, max_order + 1>;
+using Homogeneous = std::array<std::array<double, max_cell_order + 1>, max_cell_order + 1>;
 
 /// Returns a polynomial of degree d times (a x + b y + c z).
 Homogeneous times_linear(const Homogeneous& f, unsigned d, double a, double b, double c) {
     Homogeneous product{};
     for (unsigned i = 0; i <= d; ++i)
         for (unsigned j = 0; i + j <= d; ++j) {
-            if (i + 1 <= max_order) product[i + 1][j] += a * f[i][j];
-            if (j + 1 <= max_order) product[i][j + 1] += b * f[i][j];
+            if (i + 1 <= max_cell_order) product[i + 1][j] += a * f[i][j];
+            if (j + 1 <= max_cell_order) product[i][j + 1] += b * f[i][j];
             product[i][j] += c * f[i][j];
         }
     return product;
@@ -132,7 +132,8 @@ void add_conversion(unsigned corners, unsigned p, const CoefficientGrid& map, De
     });
 }
 
-/// The derivatives along i and j are polynomials of lower degree: on the square in their own direction alone.
+/// Adds the derivatives along i and j and what their products amount to. A derivative on the square is of lower degree in
+/// its own direction alone, and on the triangle of lower total degree.
 void add_products(const CoefficientGrid& map, const CoefficientGrid& along, const CoefficientGrid& across,
                   DeterminantRule& rule) {
     rule.along.resize(along.size());
@@ -165,11 +166,11 @@ DeterminantRule make_rule(unsigned corners, unsigned p) {
     return rule;
 }
 
-using RulesByOrder = std::array<DeterminantRule, max_order + 1>;
+using RulesByOrder = std::array<DeterminantRule, max_cell_order + 1>;
 
 RulesByOrder make_rules(unsigned corners) {
     RulesByOrder rules;
-    for (unsigned p = 1; p <= max_order; ++p) rules[p] = make_rule(corners, p);
+    for (unsigned p = 1; p <= max_cell_order; ++p) rules[p] = make_rule(corners, p);
     return rules;
 }
 
@@ -181,7 +182,7 @@ const DeterminantRule& rule_of(unsigned corners, unsigned order) {
 // ---- coefficients of one cell ----------------------------------------------------------------------------------------
 
 /// Coefficients of the determinant, of which all shapes and orders leave some at the end unused.
-using Coefficients = std::array<double, 4 * max_order * max_order>;
+using Coefficients = std::array<double, 4 * max_cell_order * max_cell_order>;
 
 /// Coefficients of the determinant on a part of the cell, each of which is within `radius` of the exact one.
 struct Part {
@@ -197,7 +198,7 @@ struct Magnitude {
 
 /// The derivatives of one coordinate, but for a factor, and how large they are.
 struct Derivatives {
-    std::array<double, (max_order + 1) * max_order> along{}, across{};
+    std::array<double, (max_cell_order + 1) * max_cell_order> along{}, across{};
     Magnitude largest;
 };
 
@@ -205,7 +206,7 @@ struct Derivatives {
 template <class Coordinate>
 Derivatives derivatives_of(const DeterminantRule& rule, std::span<const Point> nodes, Coordinate coordinate) {
     const std::size_t n = rule.nodes;
-    std::array<double, nodes_of_cell(4, max_order)> local{}, map{};
+    std::array<double, nodes_of_cell(4, max_cell_order)> local{}, map{};
     double largest = 0;
     for (std::size_t i = 0; i < n; ++i) {
         local[i] = coordinate(nodes[i]) - coordinate(nodes[0]);
@@ -233,7 +234,8 @@ Derivatives derivatives_of(const DeterminantRule& rule, std::span<const Point> n
 double radius_of(const DeterminantRule& rule, const Magnitude& x, const Magnitude& y) {
     constexpr double for_rounding_of_this = 1 + 0x1p-20, for_underflow = 1e-290;
     const double of_factors = 2 * (x.size * y.error + y.size * x.error + x.error * y.error);
-    const double of_sums = 2 * (static_cast<double>(rule.terms_of_one) + 6) * rounding_unit * x.size * y.size;
+    const double of_products = 2 * x.size * y.size;  // not finite where a product is not
+    const double of_sums = of_products * (static_cast<double>(rule.terms_of_one) + 6) * rounding_unit;
     return for_rounding_of_this * (of_factors + of_sums) + for_underflow;
 }
 
@@ -308,6 +310,12 @@ std::pair<Part, Part> halves_of(const CoefficientGrid& grid, Part first) {
     return {first, second};
 }
 
+/// Returns whether all coefficients and their errors are numbers whose sums do not overflow.
+bool is_bounded(std::span<const double> coefficients, double radius) {
+    constexpr double limit = 0x1p1022;
+    return radius < limit && std::ranges::all_of(coefficients, [](double c) { return std::abs(c) < limit; });
+}
+
 }  // namespace
 
 JacobianBounds bound_jacobian(unsigned corners, unsigned order, std::span<const Point> nodes) {
@@ -315,8 +323,11 @@ JacobianBounds bound_jacobian(unsigned corners, unsigned order, std::span<const 
     const DeterminantRule& rule = rule_of(corners, order);
     const auto of_part = [&](const Part& part) { return std::span(part.coefficients).first(rule.grid.size()); };
     const auto largest_of = [&](const Part& part) { return *std::ranges::max_element(of_part(part)); };
+    constexpr double for_rounding_of_scale = 0x1p-50;
     Part part = whole_cell(rule, nodes);
-    JacobianBounds bounds{.upper = rule.scale * (largest_of(part) + part.radius)};
+    if (!is_bounded(of_part(part), part.radius)) return {CellVerdict::unproved, 0, HUGE_VAL};
+    const double upper = rule.scale * (largest_of(part) + part.radius);
+    const JacobianBounds bounds{.upper = upper + for_rounding_of_scale * std::abs(upper)};
     std::vector<Part> undecided;
     double lower = HUGE_VAL;
     for (;;) {
@@ -336,8 +347,7 @@ JacobianBounds bound_jacobian(unsigned corners, unsigned order, std::span<const 
         undecided.push_back(first);
         part = second;
     }
-    constexpr double for_rounding_of_scale = 1 - 0x1p-50;
-    return {CellVerdict::valid, for_rounding_of_scale * rule.scale * lower, bounds.upper};
+    return {CellVerdict::valid, (1 - for_rounding_of_scale) * rule.scale * lower, bounds.upper};
 }
 
 }  // namespace lamina::mesh

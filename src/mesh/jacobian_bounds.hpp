@@ -22,7 +22,7 @@ enum class CellVerdict {
 struct JacobianBounds {
     CellVerdict verdict = CellVerdict::unproved;
     double lower = 0;  ///< no value of a valid cell is below this
-    double upper = 0;  ///< no value is above this
+    double upper = 0;  ///< no value is above this; infinite where coordinates are too large
 
     /// Returns a lower bound of the smallest value over the largest one; not positive unless the cell is valid.
     double scaled() const { return verdict == CellVerdict::valid ? lower / upper : 0; }

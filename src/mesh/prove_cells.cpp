@@ -1,6 +1,7 @@
 #include "mesh/prove_cells.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 #include "core/parallel.hpp"
@@ -17,6 +18,7 @@ void add_proof(std::size_t cell, const JacobianBounds& bounds, CellProofs& proof
     if (bounds.verdict != CellVerdict::valid)
         proofs.doubtful.push_back({static_cast<std::uint32_t>(cell), bounds.verdict == CellVerdict::invalid});
     const double scaled = bounds.scaled();
+    assert(scaled >= 0 && scaled <= 1);
     ++proofs.histogram[std::min(static_cast<std::size_t>(scaled * CellProofs::bins), CellProofs::bins - 1)];
     if (scaled >= proofs.min_scaled) return;
     proofs.min_scaled = scaled;

@@ -1,7 +1,10 @@
 // SU2 and VTU files: meshes are written and read back, and broken files are refused.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <fstream>
 #include <random>
@@ -12,6 +15,7 @@
 #include <lamina/io.hpp>
 
 #include "core/parallel.hpp"
+#include "mesh/cell_lattice.hpp"
 #include "support/sample_meshes.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -100,6 +104,62 @@ std::vector<T> vtu_array(const std::string& file, const std::string& name, std::
     std::vector<T> values(count);
     std::memcpy(values.data(), file.data() + data + 8, count * sizeof(T));
     return values;
+}
+
+/// Returns the place of the node (i, j) in a Lagrange cell, by vtkHigherOrderQuadrilateral::PointIndexFromIJK() and
+/// vtkHigherOrderTriangle::Index().
+std::size_t vtk_place(unsigned corners, unsigned p, unsigned i, unsigned j) {
+    if (corners == 4) {
+        const bool at_i = i == 0 || i == p, at_j = j == 0 || j == p;
+        if (at_i && at_j) return i > 0 ? (j > 0 ? 2 : 1) : (j > 0 ? 3 : 0);
+        if (at_j) return 4 + (i - 1) + (j > 0 ? 2 * (p - 1) : 0);
+        if (at_i) return 4 + (j - 1) + (i > 0 ? p - 1 : 3 * (p - 1));
+        return 4 + 4 * (p - 1) + (i - 1) + (p - 1) * (j - 1);
+    }
+    const std::array<unsigned, 3> b{i, j, p - i - j};
+    unsigned index = 0, least = 0, largest = p;
+    for (unsigned order = p; *std::min_element(b.begin(), b.end()) > least; order -= 3) {
+        index += 3 * order;
+        largest -= 2;
+        ++least;
+    }
+    for (std::size_t k = 0; k < 3; ++k, ++index)
+        if (b[(k + 2) % 3] == largest) return index;
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (b[(k + 1) % 3] == least) return index + b[k] - (least + 1);
+        index += largest - (least + 1);
+    }
+    return index;
+}
+
+TEST(MeshFiles, VtuHasCurvedCellsInTheOrderOfVtk) {
+    const TemporaryFolder folder;
+    for (const unsigned corners : {3u, 4u})
+        for (unsigned p = 2; p <= max_cell_order; ++p) {
+            Mesh mesh{.points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+            if (corners == 3) mesh.points = {{0, 0}, {1, 0}, {0, 1}};
+            if (corners == 3)
+                mesh.triangles = {{{VertexId{0u}, VertexId{1u}, VertexId{2u}}}};
+            else
+                mesh.quads = {{{VertexId{0u}, VertexId{1u}, VertexId{2u}, VertexId{3u}}}};
+            CurvedNodes nodes{.order = p};
+            const auto lattice = mesh::lattice_of_cell(corners, p);
+            for (std::size_t n = corners; n < lattice.size(); ++n) {
+                nodes.points.push_back({double(lattice[n].i) / p, double(lattice[n].j) / p});
+                (corners == 3 ? nodes.triangle_nodes : nodes.quad_nodes).push_back(VertexId(n));
+            }
+            write_curved_mesh(mesh, nodes, folder / "m.vtu");
+            const std::string file = folder.read("m.vtu");
+            const auto points = vtu_array<double>(file, "Points", 3 * lattice.size());
+            const auto connectivity = vtu_array<std::int64_t>(file, "connectivity", lattice.size());
+            EXPECT_EQ(vtu_array<std::int64_t>(file, "offsets", 1)[0], std::int64_t(lattice.size()));
+            EXPECT_EQ(vtu_array<std::uint8_t>(file, "types", 1)[0], corners == 3 ? 69 : 70);
+            for (const auto [i, j] : lattice) {
+                const auto node = static_cast<std::size_t>(connectivity[vtk_place(corners, p, i, j)]);
+                EXPECT_EQ(points[3 * node], double(i) / p) << corners << " corners, order " << p;
+                EXPECT_EQ(points[3 * node + 1], double(j) / p) << corners << " corners, order " << p;
+            }
+        }
 }
 
 TEST(MeshFiles, VtuHoldsQualityAndWallDistance) {

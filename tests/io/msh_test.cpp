@@ -67,6 +67,17 @@ TEST(Msh, WritesTheGoldenFiles) {
     EXPECT_EQ(folder.read("m.msh"), tiny_msh22);
 }
 
+TEST(Msh, CurvedCellsWhoseNodesAreOutOfRangeAreNotProved) {
+    const TemporaryFolder folder;
+    const std::string large = "2.4937938687092768e154";
+    folder.write("m.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n6\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 " + large +
+                              " " + large + " 0\n5 0 0 0\n6 -" + large + " " + large +
+                              " 0\n$EndNodes\n$Elements\n1\n1 9 2 0 0 1 2 3 4 5 6\n$EndElements\n");
+    const CurvedMesh read = read_curved_mesh(folder / "m.msh");
+    ASSERT_EQ(read.nodes.order, 2u);
+    EXPECT_FALSE(check_curved(read.mesh, read.nodes).valid());
+}
+
 TEST(Msh, HoldsRegions) {
     const TemporaryFolder folder;
     for (const std::string format : {"msh41", "msh41-binary", "msh22", "msh22-binary"}) {

@@ -12,8 +12,8 @@
 namespace lamina::mesh {
 namespace {
 
-/// A ring of columns round a circle of radius 1, whose first cells are far thinner than its edges bend, and a row of triangles
-/// round it.
+/// A ring of columns round a circle of radius 1, whose first cells are far thinner than its edges bend, and a row of
+/// triangles round it.
 struct Ring {
     Mesh mesh;
     std::vector<std::uint32_t> columns;
@@ -89,7 +89,16 @@ TEST(CurveCells, OfThinColumnsFollowTheWall) {
                     const std::size_t node = curved.nodes.marker_nodes[i].index() - ring.mesh.points.size();
                     EXPECT_NEAR(length(curved.nodes.points[node]), 1, 1e-15);
                 }
-                // Every node belongs to a cell, and the far field is straight.
+                const Marker& far_field = ring.mesh.markers[1];
+                auto node = curved.nodes.marker_nodes.begin() + columns_of_ring * (order - 1);
+                for (const Segment& edge : far_field.edges)
+                    for (unsigned k = 1; k < order; ++k, ++node) {
+                        const Point a = ring.mesh.points[edge.a.index()], b = ring.mesh.points[edge.b.index()];
+                        const Point on_chord = a + (static_cast<double>(k) / order) * (b - a);
+                        EXPECT_LT(distance(curved.nodes.points[node->index() - ring.mesh.points.size()], on_chord),
+                                  1e-15);
+                    }
+                // Every node belongs to a cell.
                 std::set<VertexId> used(curved.nodes.triangle_nodes.begin(), curved.nodes.triangle_nodes.end());
                 used.insert(curved.nodes.quad_nodes.begin(), curved.nodes.quad_nodes.end());
                 EXPECT_EQ(used.size(), curved.nodes.points.size());

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -126,7 +127,7 @@ TEST(JacobianBounds, HoldForSamplesOfRandomCells) {
     std::array<std::size_t, 3> verdicts{};
     for (int round = 0; round < 600; ++round)
         for (const unsigned corners : every_shape)
-            for (unsigned p = 1; p <= max_order; ++p) {
+            for (unsigned p = 1; p <= max_cell_order; ++p) {
                 const auto nodes = random_cell(corners, p, random);
                 const JacobianBounds bounds = bound_jacobian(corners, p, points_of(nodes));
                 ++verdicts[static_cast<std::size_t>(bounds.verdict)];
@@ -154,7 +155,7 @@ TEST(JacobianBounds, AgreeWithRationalArithmetic) {
     std::size_t valid = 0, invalid = 0;
     for (int round = 0; round < 25; ++round)
         for (const unsigned corners : every_shape)
-            for (unsigned p = 1; p <= max_order; ++p) {
+            for (unsigned p = 1; p <= max_cell_order; ++p) {
                 std::vector<Coordinates<Fraction>> exact;
                 std::vector<Point> nodes;
                 const auto whole = [&](unsigned i) { return static_cast<long>(12 * i + random.below(9)) - 4; };
@@ -181,6 +182,12 @@ TEST(JacobianBounds, AgreeWithRationalArithmetic) {
                 }
                 if (smallest < 0) {
                     EXPECT_EQ(bounds.verdict, CellVerdict::invalid);
+                } else if (bounds.verdict == CellVerdict::invalid) {
+                    double finer = HUGE_VAL;
+                    sample_determinant<Fraction>(corners, p, exact, 48, [&](Fraction value) {
+                        finer = std::min(finer, static_cast<double>(value));
+                    });
+                    EXPECT_LT(finer, 0) << corners << " corners, order " << p;
                 }
             }
     EXPECT_GT(valid, 50u);
@@ -203,7 +210,7 @@ TEST(JacobianBounds, AreThoseOfTheCornersForStraightCells) {
     const auto area = [&](std::size_t a, std::size_t b, std::size_t c) {
         return cross(corners_at[b] - corners_at[a], corners_at[c] - corners_at[a]);
     };
-    for (unsigned p = 1; p <= max_order; ++p) {
+    for (unsigned p = 1; p <= max_cell_order; ++p) {
         const JacobianBounds triangle = bound_jacobian(3, p, straight_cell(3, p, corners_at));
         EXPECT_NEAR(triangle.lower, area(0, 1, 2), 1e-9);
         EXPECT_NEAR(triangle.upper, area(0, 1, 2), 1e-9);
@@ -216,7 +223,7 @@ TEST(JacobianBounds, AreThoseOfTheCornersForStraightCells) {
 
 TEST(JacobianBounds, KnowInvalidCells) {
     for (const unsigned corners : every_shape)
-        for (unsigned p = 1; p <= max_order; ++p) {
+        for (unsigned p = 1; p <= max_cell_order; ++p) {
             const std::array<Point, 4> square{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
             std::vector<Point> mirrored = straight_cell(corners, p, square);
             for (Point& node : mirrored) node.x = -node.x;
@@ -238,6 +245,41 @@ TEST(JacobianBounds, KnowInvalidCells) {
     EXPECT_EQ(bound_jacobian(3, 2, touching).verdict, CellVerdict::valid);
     touching[3].y = 0.2501;
     EXPECT_EQ(bound_jacobian(3, 2, touching).verdict, CellVerdict::invalid);
+}
+
+TEST(JacobianBounds, ProveNothingWhereNumbersOverflow) {
+    const double large = 2.4937938687092768e154;  // whose square is finite, and twice that is not
+    const std::vector<Point> overflowing{{0, 0}, {1, 0}, {0, 1}, {large, large}, {0, 0}, {-large, large}};
+    EXPECT_EQ(bound_jacobian(3, 2, overflowing).verdict, CellVerdict::unproved);
+    const std::array<Point, 4> square{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+    for (const unsigned corners : every_shape)
+        for (unsigned p = 1; p <= max_cell_order; ++p)
+            for (const double size : {1e100, 1e150, 1e153, 1e154, 1e155, 1e200, 1e308})
+                for (const double sign : {1.0, -1.0}) {
+                    std::vector<Point> nodes = straight_cell(corners, p, square);
+                    for (Point& node : nodes) node = {sign * size * node.x, size * node.y};
+                    const JacobianBounds bounds = bound_jacobian(corners, p, nodes);
+                    EXPECT_NE(bounds.verdict, sign > 0 ? CellVerdict::invalid : CellVerdict::valid);
+                    EXPECT_LE(bounds.scaled(), 1);
+                    EXPECT_GE(bounds.scaled(), 0);
+                }
+}
+
+/// Expects the places of the nodes to be those of these pairs of digits.
+void expect_lattice(unsigned corners, unsigned order, const std::string& digits) {
+    std::string found;
+    for (const auto [i, j] : lattice_of_cell(corners, order))
+        found += (found.empty() ? "" : " ") + std::to_string(i) + std::to_string(j);
+    EXPECT_EQ(found, digits);
+}
+
+TEST(CellLattice, HasTheOrderOfGmsh) {
+    expect_lattice(3, 2, "00 20 02 10 11 01");
+    expect_lattice(4, 2, "00 20 22 02 10 21 12 01 11");
+    expect_lattice(3, 3, "00 30 03 10 20 21 12 02 01 11");
+    expect_lattice(4, 3, "00 30 33 03 10 20 31 32 23 13 02 01 11 21 22 12");
+    expect_lattice(3, 4, "00 40 04 10 20 30 31 22 13 03 02 01 11 21 12");
+    expect_lattice(4, 4, "00 40 44 04 10 20 30 41 42 43 34 24 14 03 02 01 11 31 33 13 21 32 23 12 22");
 }
 
 TEST(JacobianBounds, DoNotDependOnTheFirstCornerOrThePlace) {
