@@ -19,7 +19,7 @@ namespace lamina {
 
 /// The conditions as they are given.
 struct FlowConditions {
-    double alpha_deg = 0;  ///< angle of attack: the flow comes from the left and rises at this angle
+    double alpha_deg = 0;               ///< angle of attack: the flow comes from the left and rises at this angle
     std::optional<double> reynolds{};   ///< Reynolds number of the free stream, based on the chord
     std::optional<double> mach{};       ///< Mach number of the free stream
     std::optional<double> chord{};      ///< reference chord in units of the input; empty: the extent in x
