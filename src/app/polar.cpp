@@ -106,8 +106,12 @@ Json json_number(const std::optional<double>& value) { return value ? Json(*valu
 
 PolarConditions polar_conditions(const Geometry& geometry, const ReferenceConditions& reference) {
     PolarConditions conditions{"", reference.reynolds, reference.mach};
-    for (const Element& element : geometry.elements)
-        conditions.name += (conditions.name.empty() ? "" : " ") + element.name;
+    std::string before;
+    for (const Element& element : geometry.elements) {
+        const std::string& name = element.file.empty() ? element.name : element.file;
+        if (name != before) conditions.name += (before.empty() ? "" : " ") + name;
+        before = name;
+    }
     return conditions;
 }
 

@@ -27,7 +27,7 @@ struct PolarRow {
 
 /// What all rows of a polar have in common.
 struct PolarConditions {
-    std::string name;  ///< of the configuration
+    std::string name;  ///< of the configuration: its files, or its elements where they have none
     std::optional<double> reynolds{}, mach{};
 };
 

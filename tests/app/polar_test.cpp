@@ -191,7 +191,7 @@ TEST(YPlusCommand, ComputesFirstHeightsWithoutASection) {
     ASSERT_EQ(back.exit_code, 0) << back.err;
     EXPECT_NE(back.out.find("y+          2"), std::string::npos) << back.out;
     expect_refused(folder, {"yplus"}, usage, "reynolds");
-    expect_refused(folder, {"yplus", "--reynolds", "1e200", "--y-plus", "1e-200"}, usage, "y_plus");
+    expect_refused(folder, {"yplus", "--reynolds", "1e200", "--y-plus", "1e-200"}, usage, "--y-plus");
     expect_refused(folder, {"yplus", "--reynolds", "1e6", "--y-plus", "1", "--first-height", "1e-5"}, usage,
                    "exclude each other");
 }
