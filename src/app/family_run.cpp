@@ -146,7 +146,11 @@ std::vector<Member> plan_members(const FamilyArguments& arguments, const MeshCas
     const int base = arguments.base_level.value_or(arguments.levels / 2);
     CaseOptions options = options_with_files(mesh_case);
     // A number of vertices or cells is that of the base level.
-    if (options.vertices || options.cells) options = with_scale(options, generate_mesh(geometry, options).scale);
+    if (options.vertices || options.cells) {
+        CaseOptions straight = options;  // which has the same vertices and cells
+        straight.order = 1;
+        options = with_scale(options, generate_mesh(geometry, straight).scale);
+    }
     const ReferenceConditions conditions = reference_conditions(options.conditions, reference_box(geometry));
     std::vector<Member> members;
     for (int level = 0; level < arguments.levels; ++level) {

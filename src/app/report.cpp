@@ -58,7 +58,7 @@ Json input_report(const Geometry& geometry) {
 
 Json curved_report(const MeshResult& result) {
     return {{"order", result.curved.order},
-            {"wall_edges", wall_edges(result.mesh)},
+            {"wall_edges", result.curving.wall_edges},
             {"curved_wall_edges", result.curving.curved_edges},
             {"reduced_wall_edges", result.curving.reduced_edges},
             {"reduced_distance", result.curving.reduced_distance},

@@ -139,13 +139,6 @@ std::string quality_summary(const MeshCheck& check) {
                                            check.delaunay_violations, check.interior_edges));
 }
 
-std::size_t wall_edges(const Mesh& mesh) {
-    std::size_t edges = 0;
-    for (const Marker& marker : mesh.markers)
-        if (marker.kind == MarkerKind::wall) edges += marker.edges.size();
-    return edges;
-}
-
 std::string curved_line(unsigned order, const CurvedCheck& check) {
     const std::string verdict = check.valid()
                                     ? "each proved valid"
@@ -170,12 +163,12 @@ std::string mesh_summary(const MeshCase& mesh_case, const MeshResult& result, co
                                                   mesh_case.options.vertices ? "vertices" : "cells"));
     text += quality_summary(result.check);
     if (result.curved.order > 1)
-        text +=
-            curved_line(result.curved.order, result.curved_check) +
-            summary_line("walls",
-                         fmt::format("{} of {} edges within {:.2g} of the curve, {} of smaller bend within {:.2g}",
-                                     result.curving.curved_edges, wall_edges(result.mesh), result.curving.wall_distance,
-                                     result.curving.reduced_edges, result.curving.reduced_distance));
+        text += curved_line(result.curved.order, result.curved_check) +
+                summary_line(
+                    "walls",
+                    fmt::format("{} of {} edges within {:.2g} of the curve, {} of smaller bend within {:.2g}",
+                                result.curving.curved_edges, result.curving.wall_edges, result.curving.wall_distance,
+                                result.curving.reduced_edges, result.curving.reduced_distance));
     text += fan_line(result);
     if (const ElementCoverage coverage = total_coverage(result); coverage.all.requested_cells > 0)
         text += coverage_line(coverage) + border_line(result.border_steps);

@@ -18,9 +18,6 @@ std::string summary_line(const std::string& label, const std::string& text);
 /// Returns the lines about the quality of a mesh.
 std::string quality_summary(const MeshCheck& check);
 
-/// Returns the number of edges of all walls.
-std::size_t wall_edges(const Mesh& mesh);
-
 /// Returns the line on curved cells.
 std::string curved_line(unsigned order, const CurvedCheck& check);
 

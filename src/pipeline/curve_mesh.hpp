@@ -15,8 +15,12 @@ void validate_order(const CaseOptions& options);
 /// Returns the number of points on the curve of each edge of a wall: nodes, and points between to measure by.
 inline std::size_t points_on_curves(unsigned order) { return order > 1 ? 2 * std::size_t{order} - 1 : 0; }
 
-/// Makes the cells of a mesh follow these curves of its walls, proves them valid, and records both in the result. Throws MeshError where the cells of the
-/// layer form no columns, and OptionError where an element has sheets. Precondition: order > 1.
+/// Throws OptionError where the cells are to be curved and an element has sheets.
+void refuse_curved_sheets(const CaseOptions& options, const Geometry& geometry);
+
+/// Makes the cells of a mesh follow these curves of its walls, proves them valid, and records both in the result, with a
+/// warning of edges that were divided and are straight. Throws MeshError where the cells of the layer form no columns.
+/// Precondition: order > 1, and no element has sheets.
 void curve_mesh(unsigned order, std::span<const surface::CurvedEdge> curves, MeshResult& result);
 
 }  // namespace lamina::pipeline

@@ -8,6 +8,7 @@
 #include <lamina/threads.hpp>
 
 #include "core/bounding_box.hpp"
+#include "mesh/cell_lattice.hpp"
 #include "surface/clearance.hpp"
 
 namespace lamina::pipeline {
@@ -24,7 +25,14 @@ double layer_triangles(const layers::Layer& layer) {
     return 2 * static_cast<double>(cells);
 }
 
-RunEstimate estimate_mesh(const RefineOptions& refine, const layers::Layer& layer,
+/// Returns the memory that curved cells take beside straight ones.
+double bytes_of_curved_cells(double triangles, unsigned order) {
+    // Counted: places and lists of nodes, and the numbers and bends of edges, are 15 bytes for each node of a triangle.
+    constexpr double bytes_per_node = 15;
+    return order > 1 ? bytes_per_node * mesh::nodes_of_cell(3, order) * triangles : 0;
+}
+
+RunEstimate estimate_mesh(const RefineOptions& refine, unsigned order, const layers::Layer& layer,
                           const decoupling::OuterRegion& region, const WorkCost& cost) {
     // Measured: how much more time a triangle of the layer takes than another one, and how much regularization takes.
     constexpr double more_seconds_per_layer_triangle = 0.3e-6, seconds_per_regularized_triangle = 12e-6;
@@ -36,7 +44,7 @@ RunEstimate estimate_mesh(const RefineOptions& refine, const layers::Layer& laye
         estimate_run(in_layer + isotropic, cost, thread_count(),
                      seconds_per_border_edge * border_edges + more_seconds_per_layer_triangle * in_layer +
                          (refine.regularize ? seconds_per_regularized_triangle * isotropic : 0));
-    estimate.memory_bytes += bytes_per_border_edge * border_edges;
+    estimate.memory_bytes += bytes_per_border_edge * border_edges + bytes_of_curved_cells(estimate.triangles, order);
     return estimate;
 }
 
@@ -138,14 +146,15 @@ void require_walls_within(const SurfaceOptions& options, const Geometry& prepare
                          estimate);
 }
 
-RunEstimate estimate_within_limits(const RefineOptions& refine, double gradation, const layers::Layer& layer,
+RunEstimate estimate_within_limits(const CaseOptions& options, const layers::Layer& layer,
                                    const decoupling::OuterRegion& region, const WorkBudget& budget) {
-    const RunEstimate estimate = estimate_mesh(refine, layer, region, budget.cost);
+    const RunEstimate estimate = estimate_mesh(options.refine, options.order, layer, region, budget.cost);
     if (const double in_layer = layer_triangles(layer); in_layer > 0.5 * estimate.triangles)
         require_within(budget.limits, estimate, "layers",
                        fmt::format("the mesh, with {:.2g} triangles in the layer,", in_layer));
-    require_within(budget.limits, estimate, "gradation",
-                   fmt::format("{}, with these sizes at walls and sources and this far field,", gradation));
+    require_within(
+        budget.limits, estimate, "gradation",
+        fmt::format("{}, with these sizes at walls and sources and this far field,", options.sizing.gradation));
     return estimate;
 }
 

@@ -36,8 +36,8 @@ void require_layers_within(const layers::LayerGrowth& growth, const Geometry& wa
 /// the gap. Takes less than a second.
 void require_walls_within(const SurfaceOptions& options, const Geometry& prepared, const WorkBudget& budget);
 
-/// Estimates the run from the layer and the region beyond it. Throws LimitError where it would exceed the limits. `gradation` is that of the sizes.
-RunEstimate estimate_within_limits(const RefineOptions& refine, double gradation, const layers::Layer& layer,
+/// Estimates the run from the layer and the region beyond it. Throws LimitError where it would exceed the limits.
+RunEstimate estimate_within_limits(const CaseOptions& options, const layers::Layer& layer,
                                    const decoupling::OuterRegion& region, const WorkBudget& budget);
 
 /// Returns how many triangles the estimate has beyond the layer.

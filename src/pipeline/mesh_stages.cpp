@@ -231,7 +231,7 @@ MadeMesh make_mesh(const FittedLayer& fitted, const CaseOptions& options, MeshDr
         fitted.far_field, options.decoupling, inner_lines(fitted.lines, options.lines, region)};
     std::optional<RunEstimate> estimate;
     driver.lead([&] {
-        estimate = estimate_within_limits(options.refine, options.sizing.gradation, layer, outer, budget);
+        estimate = estimate_within_limits(options, layer, outer, budget);
         result.estimate = *estimate;
     });
     clock.end(&StageSeconds::sizing);

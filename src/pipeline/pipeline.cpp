@@ -96,6 +96,7 @@ PreparedWalls prepare_walls(const Geometry& given, const CaseOptions& options, c
 /// Runs all stages on a geometry.
 MadeMesh run(const Geometry& whole, CaseOptions options, MeshDriver& driver, StageClock& clock) {
     const Geometry given = part_in_domain(whole, options);
+    refuse_curved_sheets(options, given);
     const ReferenceConditions conditions = reference_conditions(options.conditions, reference_box(given));
     options.sizing = sizes_between_borders(wakes_at_angles(std::move(options.sizing), options.conditions),
                                            options.far_field, conditions.chord, options.fineness);

@@ -452,12 +452,16 @@ std::vector<CurvedEdge> curved_edges_of(const OutlineCurves& outline, const Divi
     return edges;
 }
 
-/// Returns the curves of an outline that a spline follows from corner to corner, through all of its points.
-OutlineCurves interpolating_curves(const Element& given) {
-    const std::size_t n = given.points.size();
-    const std::vector<EdgeTreatment> treatment(n, EdgeTreatment::spline);
-    CorneredOutline outline{given.points, given.features.corners, std::vector<std::size_t>(n)};
+/// Returns the outline of an element with all of its points and corners.
+CorneredOutline whole_outline(const Element& given) {
+    CorneredOutline outline{given.points, given.features.corners, std::vector<std::size_t>(given.points.size())};
     std::iota(outline.origins.begin(), outline.origins.end(), std::size_t{0});
+    return outline;
+}
+
+/// Returns the curves of an outline that a spline follows from corner to corner, through all of its points.
+OutlineCurves interpolating_curves(const CorneredOutline& outline) {
+    const std::vector<EdgeTreatment> treatment(outline.points.size(), EdgeTreatment::spline);
     OutlineCurves curves;
     for (const Stretch& stretch : stretches_of(outline)) append_curves(stretch, treatment, curves);
     return curves;
@@ -489,16 +493,14 @@ double ResamplingRequest::corner_spacing(std::size_t element, double turning, do
 double extent(std::span<const Point> outline) { return core::longer_side_of_tight_box(outline); }
 
 std::vector<double> edges_asked_for(const Element& given, std::size_t index, const ResamplingRequest& request) {
-    const std::size_t n = given.points.size();
-    CorneredOutline outline{given.points, given.features.corners, std::vector<std::size_t>(n)};
-    std::iota(outline.origins.begin(), outline.origins.end(), std::size_t{0});
-    OutlineCurves curves = interpolating_curves(given);
+    const CorneredOutline outline = whole_outline(given);
+    OutlineCurves curves = interpolating_curves(outline);
     const ChordEnds ends = find_chord_ends(given.points);
     limit_at_corners(curves, outline, given, index, request, ends);
     SampledCurves sampled;
     const SpacingRule rule = make_spacing_rule(request, ends, extent(given.points), index, given);
     const std::vector<std::vector<double>> of_pieces = edges_of_pieces(curves.curves, rule, sampled);
-    std::vector<double> edges(n);
+    std::vector<double> edges(given.points.size());
     for (std::size_t c = 0; c < of_pieces.size(); ++c)
         for (std::size_t piece = 0; piece < of_pieces[c].size(); ++piece)
             edges[curves.knots[c][piece]] = of_pieces[c][piece];
@@ -506,7 +508,7 @@ std::vector<double> edges_asked_for(const Element& given, std::size_t index, con
 }
 
 std::vector<CurvedEdge> interpolated_edges(const Element& element, std::size_t points_between) {
-    const OutlineCurves curves = interpolating_curves(element);
+    const OutlineCurves curves = interpolating_curves(whole_outline(element));
     std::vector<CurvedEdge> edges;
     for (std::size_t c = 0; c < curves.curves.size(); ++c)
         for (std::size_t piece = 0; piece < curves.curves[c].curve.pieces(); ++piece) {

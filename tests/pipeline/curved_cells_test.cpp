@@ -36,6 +36,13 @@ void expect_proved(const MeshResult& result, unsigned order) {
     EXPECT_GT(result.curving.curved_edges, 0u);
 }
 
+std::size_t wall_edges(const Mesh& mesh) {
+    std::size_t edges = 0;
+    for (const Marker& marker : mesh.markers)
+        if (marker.kind == MarkerKind::wall) edges += marker.edges.size();
+    return edges;
+}
+
 /// Returns the largest distance of the curved edges of the walls, sampled between nodes, by a measure of points.
 double wall_error(const MeshResult& result, const std::function<double(Point)>& distance_of) {
     const unsigned p = result.curved.order;
@@ -64,7 +71,8 @@ double wall_error(const MeshResult& result, const std::function<double(Point)>& 
     return largest;
 }
 
-/// Returns the distance from the sharp NACA 0012, whose half thickness is a polynomial in s = sqrt(x), by Newton's method.
+/// Returns the distance from the sharp NACA 0012, whose half thickness is a polynomial in s = sqrt(x), by a search with
+/// ever shorter steps.
 double distance_from_naca_0012(Point p) {
     const double y = std::abs(p.y);
     const auto thickness = [](double s) {
@@ -169,6 +177,7 @@ TEST(CurvedCells, ChangeNothingOfTheStraightMesh) {
         EXPECT_EQ(mesh_hash(curved.mesh), mesh_hash(straight.mesh));
         EXPECT_EQ(curved.mesh.points, straight.mesh.points);
         EXPECT_TRUE(straight.curved.points.empty());
+        EXPECT_GT(curved.estimate.memory_bytes, straight.estimate.memory_bytes);
         expect_proved(curved, 3);
     }
 }
@@ -202,7 +211,27 @@ TEST(CurvedCells, OfTurnedAndMirroredWallsAreValidAsWell) {
         const MeshResult result = mesh_of({change(slat), change(main)}, curved_options(3));
         expect_proved(result, 3);
         EXPECT_EQ(result.curving.reduced_edges, 0u);
+        EXPECT_EQ(result.curving.curved_edges, wall_edges(result.mesh));
     }
+}
+
+TEST(CurvedCells, OfWallsDividedAfterwardsAreReported) {
+    CaseOptions options = curved_options(3);
+    options.layer.enabled = false;
+    options.surface.treatment = SurfaceTreatment::automatic;
+    const MeshResult result = generate_mesh({"naca:4412:61:blunt"}, options);
+    expect_proved(result, 3);
+    const std::size_t straight = result.curving.wall_edges - result.curving.curved_edges;
+    EXPECT_EQ(result.curving.wall_edges, wall_edges(result.mesh));
+    ASSERT_GT(straight, 0u);  // the wall has edges that are longer than the triangles wanted there
+    EXPECT_GT(result.curving.reduced_edges, 0u);
+    EXPECT_LE(2 * result.curving.reduced_edges, straight);
+    EXPECT_GT(result.curving.reduced_distance, 1e-6);
+    const auto warning = std::find_if(result.warnings.begin(), result.warnings.end(), [](const Warning& w) {
+        return w.code == WarningCode::surface_not_as_asked && w.message.find("divided") != std::string::npos;
+    });
+    ASSERT_NE(warning, result.warnings.end());
+    EXPECT_EQ(warning->number, static_cast<double>(result.curving.reduced_edges));
 }
 
 TEST(CurvedCells, KeepCornersAndBasesAndPointsGiven) {
@@ -270,6 +299,15 @@ TEST(CurvedCells, AreRefusedInOneLine) {
     };
     EXPECT_NE(of_options(curved_options(5)).find("from 1 to 4"), std::string::npos);
     EXPECT_NE(of_options(curved_options(2, LayerTopology::delaunay)).find("quads or layered"), std::string::npos);
+    CaseOptions of_sail = curved_options(2);
+    of_sail.geometry.sheets = {{"sail", {{0, 0}, {1, 0}}}};
+    EXPECT_NE(of_options(of_sail).find("sheets"), std::string::npos);
+    const Geometry sail = read_geometry(std::vector<std::string>{}, of_sail.geometry);
+    std::size_t stages = 0;
+    EXPECT_NE(
+        reason([&] { generate_mesh(sail, curved_options(2), [&](const ProgressEvent&) { ++stages; }); }).find("sheets"),
+        std::string::npos);
+    EXPECT_EQ(stages, 0u);  // no straight mesh was made before
     EXPECT_NE(reason([] { require_curved_format("mesh.su2"); }).find("msh41"), std::string::npos);
     EXPECT_EQ(reason([] { require_curved_format("mesh.vtu"); }), "");
     EXPECT_NE(reason([] { stream_mesh({"naca:0012"}, curved_options(2), {}); }).find("leave --stream out"),
