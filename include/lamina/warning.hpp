@@ -26,7 +26,7 @@ enum class WarningCode {
     small_angle,               ///< angles below the bound that no sharp corner excuses
     refused_points,            ///< refinement left out points that would encroach upon a frozen border
     oversized_triangles,       ///< triangles larger than was asked for
-    surface_not_as_asked,      ///< the points of a wall are not those that the options ask for
+    surface_not_as_asked,      ///< the points of a wall, or its curved edges, are not those that the options ask for
     layers_thinned,            ///< layers made thinner so that angles beyond and within keep their bounds
     topology_not_as_asked,     ///< the cells of the layer are not those that the options ask for
     swapped_columns,           ///< a section stands upright: the columns of x and y are probably swapped

@@ -62,12 +62,19 @@ const char* kind_name(MarkerKind kind) {
     return "other";
 }
 
+namespace {
+
+Json list_of_defects(const std::vector<MeshDefect>& defects) {
+    Json list = Json::array();
+    for (const MeshDefect& defect : defects)
+        list.push_back({{"what", defect.description}, {"at", {defect.at.x, defect.at.y}}});
+    return list;
+}
+
+}  // namespace
+
 Json check_report(const MeshView& mesh, const MeshCheck& check, RegionOrigin regions,
                   const Shortcomings& shortcomings) {
-    Json defects = Json::array();
-    for (const MeshDefect& defect : check.defects) {
-        defects.push_back({{"what", defect.description}, {"at", {defect.at.x, defect.at.y}}});
-    }
     Json markers = Json::array();
     for (const Marker& marker : mesh.markers) {
         markers.push_back({{"name", marker.name}, {"kind", kind_name(marker.kind)}, {"edges", marker.edges.size()}});
@@ -75,7 +82,7 @@ Json check_report(const MeshView& mesh, const MeshCheck& check, RegionOrigin reg
     return {{"version", LAMINA_VERSION},
             {"valid", check.valid()},
             {"defect_count", check.defect_count},
-            {"defects", defects},
+            {"defects", list_of_defects(check.defects)},
             {"shortcomings", shortcomings},
             {"vertices", mesh.points.size()},
             {"triangles", mesh.triangles.size()},
@@ -92,6 +99,8 @@ Json check_report(const MeshView& mesh, const MeshCheck& check, RegionOrigin reg
 Json curved_check_report(unsigned order, const CurvedCheck& check) {
     return {{"order", order},
             {"valid", check.valid()},
+            {"defect_count", check.defect_count},
+            {"defects", list_of_defects(check.defects)},
             {"invalid", check.invalid},
             {"unproved", check.unproved},
             {"min_scaled_jacobian", check.min_scaled_jacobian},

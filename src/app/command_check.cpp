@@ -1,7 +1,9 @@
 // lamina check: checks whether a mesh file is valid, and measures its quality.
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -54,13 +56,18 @@ WorkLimits memory_limit(const std::string& text) {
     return options.limits;
 }
 
-std::string check_summary(const std::string& file, const MeshView& mesh, const MeshCheck& check, RegionOrigin regions,
-                          const Shortcomings& shortcomings) {
-    std::string text = fmt::format("{}: {}\n", file, check.valid() ? "valid" : "not valid");
-    for (const MeshDefect& defect : check.defects)
+std::string defect_lines(std::span<const MeshDefect> defects, std::size_t count) {
+    std::string text;
+    for (const MeshDefect& defect : defects)
         text += summary_line("defect", fmt::format("{} at ({}, {})", defect.description, defect.at.x, defect.at.y));
-    if (check.defect_count > check.defects.size())
-        text += summary_line("defect", fmt::format("and {} more", check.defect_count - check.defects.size()));
+    if (count > defects.size()) text += summary_line("defect", fmt::format("and {} more", count - defects.size()));
+    return text;
+}
+
+std::string check_summary(const std::string& file, const MeshView& mesh, const MeshCheck& check,
+                          const CurvedCheck& curved, RegionOrigin regions, const Shortcomings& shortcomings) {
+    std::string text = fmt::format("{}: {}\n", file, check.valid() && curved.valid() ? "valid" : "not valid");
+    text += defect_lines(check.defects, check.defect_count) + defect_lines(curved.defects, curved.defect_count);
     for (const std::string& shortcoming : shortcomings) text += summary_line("required", shortcoming);
     text +=
         summary_line("mesh", fmt::format("{} vertices, {} triangles, {} quads, {} boundary loops", mesh.points.size(),
@@ -113,26 +120,29 @@ void check(const CheckArguments& arguments) {
     const MeshView mesh = stored.view();
     const MeshCheck result = check_file_mesh(mesh, regions, options);
     const CurvedNodes& nodes = stored.curved();
-    const CurvedCheck curved = nodes.order > 1 ? check_curved(mesh, nodes) : CurvedCheck{};
+    // Proofs take a valid mesh for granted.
+    const bool is_curved = nodes.order > 1 && result.valid();
+    const CurvedCheck curved = is_curved ? check_curved(mesh, nodes) : CurvedCheck{};
     if (arguments.require_delaunay && result.delaunay_violations > 0) {
         shortcomings.push_back(fmt::format("{} edges between isotropic triangles violate the Delaunay property",
                                            result.delaunay_violations));
     }
     if (!arguments.min_angle.empty()) require_angles(result.isotropic, options.min_angle_deg, shortcomings);
 
-    for (const MeshDefect& defect : curved.defects) shortcomings.push_back(defect.description);
     if (arguments.json) {
         Json report = check_report(mesh, result, regions, shortcomings);
-        if (nodes.order > 1) report["curved"] = curved_check_report(nodes.order, curved);
+        report["valid"] = result.valid() && curved.valid();
+        if (is_curved) report["curved"] = curved_check_report(nodes.order, curved);
         print_result(to_text(report));
     } else {
-        print_result(check_summary(name, mesh, result, regions, shortcomings) +
-                     (nodes.order > 1 ? curved_line(nodes.order, curved) : ""));
+        print_result(check_summary(name, mesh, result, curved, regions, shortcomings) +
+                     (is_curved ? curved_line(nodes.order, curved) : ""));
     }
-    if (!result.valid()) {
-        throw MeshError(fmt::format("{}: not valid, {} defects; the first: {}", name, result.defect_count,
-                                    result.defects.front().description));
-    }
+    for (const auto& [count, defects] :
+         {std::pair(result.defect_count, &result.defects), std::pair(curved.defect_count, &curved.defects)})
+        if (count > 0)
+            throw MeshError(
+                fmt::format("{}: not valid, {} defects; the first: {}", name, count, defects->front().description));
     if (!shortcomings.empty()) throw MeshError(name + ": " + shortcomings.front());
 }
 

@@ -96,11 +96,10 @@ void report_divided_edges(std::span<const CurvedEdge* const> divided, MeshResult
          .at = at,
          .number = static_cast<double>(count),
          .unit = "wall edges",
-         .message = fmt::format("{} divided after the walls were prepared and straight, up to {:.2g} off the curve (at "
-                                "({:.6g}, {:.6g})): --surface resample or more --surface-points make edges short "
-                                "enough",
-                                count == 1 ? "1 wall edge was" : fmt::format("{} wall edges were", count), largest,
-                                at.x, at.y)});
+         .message = fmt::format(
+             "{} divided after the walls were prepared: the parts are straight, up to {:.2g} off the curve (at "
+             "({:.6g}, {:.6g})): --surface resample or more --surface-points make edges short enough",
+             count == 1 ? "1 wall edge was" : fmt::format("{} wall edges were", count), largest, at.x, at.y)});
 }
 
 }  // namespace

@@ -114,6 +114,7 @@ TEST(AdaptCommand, TrianglesAreStretchedWhereThatIsAsked) {
         std::filesystem::remove_all(folder / "loop");
     }
     expect_refused(folder, adapt({"--anisotropy", "much"}), usage, "--anisotropy");
+    expect_refused(folder, adapt({"--order", "2"}), usage, "option --order");
     expect_refused(folder, adapt({"--anisotropy", "0.5"}), usage, "--anisotropy");
 }
 

@@ -312,6 +312,48 @@ TEST(CheckCommand, AnInvalidMeshIsExitCode4) {
     EXPECT_TRUE(run.err.starts_with("lamina: error: bad.su2: not valid")) << run.err;
 }
 
+/// Returns a mesh of one triangle of order 2, whose corners are in this order, with the middle of its first edge at this y.
+std::string curved_triangle(double y, bool is_inverted = false) {
+    const std::string names = "$PhysicalNames\n1\n1 1 \"wall\"\n$EndPhysicalNames\n";
+    return "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n" + names + "$Nodes\n6\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0.5 " +
+           std::to_string(y) + " 0\n5 0.5 0.5 0\n6 0 0.5 0\n$EndNodes\n$Elements\n4\n" +
+           "1 8 2 1 1 1 2 4\n2 8 2 1 1 2 3 5\n3 8 2 1 1 3 1 6\n" +
+           (is_inverted ? "4 9 2 0 0 1 3 2 6 5 4\n" : "4 9 2 0 0 1 2 3 4 5 6\n") + "$EndElements\n";
+}
+
+TEST(CheckCommand, ProvesCurvedCells) {
+    const TemporaryFolder folder;
+    folder.write("good.msh", curved_triangle(-0.1));
+    folder.write("folded.msh", curved_triangle(0.6));
+    folder.write("inverted.msh", curved_triangle(0, true));
+    const ProgramRun good = run_lamina(folder, {"check", "good.msh", "--json"});
+    EXPECT_EQ(good.exit_code, 0) << good.err;
+    const Json report = Json::parse(good.out);
+    EXPECT_EQ(report["valid"], true);
+    EXPECT_EQ(report["curved"]["order"], 2);
+    EXPECT_EQ(report["curved"]["valid"], true);
+    EXPECT_GT(report["curved"]["min_scaled_jacobian"], 0);
+
+    const ProgramRun folded = run_lamina(folder, {"check", "folded.msh", "--json"});
+    EXPECT_EQ(folded.exit_code, mesh_failed);
+    EXPECT_TRUE(folded.err.starts_with("lamina: error: folded.msh: not valid")) << folded.err;
+    const Json of_folded = Json::parse(folded.out);
+    EXPECT_EQ(of_folded["valid"], false);
+    EXPECT_EQ(of_folded["defect_count"], 0);
+    EXPECT_EQ(of_folded["curved"]["invalid"], 1);
+    EXPECT_EQ(of_folded["curved"]["defects"].size(), 1u);
+    EXPECT_TRUE(of_folded["shortcomings"].empty());
+    const std::string text = run_lamina(folder, {"check", "folded.msh"}).out;
+    EXPECT_NE(text.find("defect"), std::string::npos) << text;
+    EXPECT_EQ(text.find("required"), std::string::npos) << text;
+
+    // Nothing is said of curved cells where the straight mesh is not valid.
+    const ProgramRun inverted = run_lamina(folder, {"check", "inverted.msh", "--json"});
+    EXPECT_EQ(inverted.exit_code, mesh_failed);
+    EXPECT_FALSE(Json::parse(inverted.out).contains("curved"));
+    EXPECT_EQ(run_lamina(folder, {"check", "inverted.msh"}).out.find("curved"), std::string::npos);
+}
+
 TEST(CheckCommand, AMarkerThatIsMissingIsExitCode4) {
     const TemporaryFolder folder;
     folder.write("square.su2",

@@ -219,6 +219,8 @@ TEST(SolverCaseCommand, RefusesWhatItCannotDo) {
     expect_refused(folder, {"case", "openfoam", "naca:0012", "--reynolds", "1e6"}, usage, "-o DIR");
     expect_refused(folder, {"case", "openfoam", "naca:0012", "-o", "c"}, usage, "option --reynolds");
     expect_refused(folder, {"case", "openfoam", "--reynolds", "1e6", "-o", "c"}, usage, "INPUT");
+    expect_refused(folder, {"case", "openfoam", "naca:0012", "--reynolds", "1e6", "-o", "c", "--order", "2"}, usage,
+                   "option --order");
     expect_refused(folder, {"case", "openfoam", "naca:0012", "--reynolds", "1e6", "-o", "c", "--turbulence", "ke"},
                    usage, "option --turbulence");
     // Before the mesh is made: one of so many triangles would be refused, too.
