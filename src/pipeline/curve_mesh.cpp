@@ -26,7 +26,7 @@ constexpr const char* sheets_are_straight = "sheets have straight cells";
 /// The curves of walls, by whether the mesh has their edges.
 struct CurvesByEdges {
     std::vector<mesh::WallCurve> walls;      ///< the curves of edges of the mesh
-    std::vector<const CurvedEdge*> divided;  ///< those without an edge: it was divided after the walls were prepared
+    std::vector<const CurvedEdge*> divided;  ///< those whose ends alone are in it: they were divided afterwards
 };
 
 /// Finds the edges of the mesh that stand between the same two points as an edge that has a curve.
@@ -39,20 +39,26 @@ CurvesByEdges curves_by_edges(std::span<const CurvedEdge> given, const Mesh& mes
     };
     std::sort(curves.begin(), curves.end(), less);
     std::vector<bool> is_found(curves.size());
+    std::vector<Point> vertices;
     CurvesByEdges by_edges;
     for (const Marker& marker : mesh.markers) {
         if (marker.kind != MarkerKind::wall) continue;
         for (const Segment& edge : marker.edges) {
             // The body is on the left of its outline, and the mesh on that of the marker.
             const CurvedEdge wanted{mesh.points[edge.b.index()], mesh.points[edge.a.index()], {}};
+            vertices.insert(vertices.end(), {wanted.begin, wanted.end});
             const auto found = std::lower_bound(curves.begin(), curves.end(), &wanted, less);
             if (found == curves.end() || less(&wanted, *found)) continue;
             is_found[static_cast<std::size_t>(found - curves.begin())] = true;
             by_edges.walls.push_back({edge, {(*found)->between.rbegin(), (*found)->between.rend()}});
         }
     }
+    // Edges below a line of symmetry are in no mesh, nor are those whose ends were moved back to given points.
+    std::sort(vertices.begin(), vertices.end(), precedes);
+    const auto is_vertex = [&](Point p) { return std::binary_search(vertices.begin(), vertices.end(), p, precedes); };
     for (std::size_t c = 0; c < curves.size(); ++c)
-        if (!is_found[c]) by_edges.divided.push_back(curves[c]);
+        if (!is_found[c] && is_vertex(curves[c]->begin) && is_vertex(curves[c]->end))
+            by_edges.divided.push_back(curves[c]);
     return by_edges;
 }
 

@@ -234,6 +234,15 @@ TEST(CurvedCells, OfWallsDividedAfterwardsAreReported) {
     EXPECT_EQ(warning->number, static_cast<double>(result.curving.reduced_edges));
 }
 
+TEST(CurvedCells, OfHalfSectionsHaveNoEdgesBelowTheSymmetry) {
+    CaseOptions options = curved_options(2);
+    options.far_field.symmetry = 0.0;
+    const MeshResult result = generate_mesh({"naca:0012"}, options);
+    expect_proved(result, 2);
+    EXPECT_EQ(result.curving.reduced_edges, 0u);
+    EXPECT_EQ(result.curving.curved_edges, wall_edges(result.mesh));
+}
+
 TEST(CurvedCells, KeepCornersAndBasesAndPointsGiven) {
     // All edges of a box are straight, whether points are resampled or kept.
     const Outline box = shapes::refined(Outline{{1, 0}, {1, 0.2}, {0, 0.2}, {0, 0}}, 12);
