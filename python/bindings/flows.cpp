@@ -79,7 +79,7 @@ nb::list elements_of(const Elements& elements) {
     return result;
 }
 
-nb::dict facts_of(const Flow& flow) {
+nb::dict flow_facts(const Flow& flow) {
     nb::dict facts;
     facts["alpha"] = flow.alpha_deg;
     facts["chord"] = flow.chord;
@@ -89,7 +89,7 @@ nb::dict facts_of(const Flow& flow) {
     return facts;
 }
 
-nb::dict facts_of(CompressibleFlow flow) {
+nb::dict flow_facts(CompressibleFlow flow) {
     nb::dict facts;
     facts["alpha"] = flow.alpha_deg;
     facts["chord"] = flow.chord;
@@ -113,7 +113,7 @@ nb::dict find_flow(const nb::list& given, const std::vector<std::pair<std::strin
     const std::vector<Section> sections = sections_of(given);
     app::FoundFlow found;
     run_unlocked([&] { found = app::find_flow(geometry_of(sections, options.geometry), options); });
-    nb::dict facts = found.compressible ? facts_of(std::move(*found.compressible)) : facts_of(found.flow);
+    nb::dict facts = found.compressible ? flow_facts(std::move(*found.compressible)) : flow_facts(found.flow);
     if (!found.compressible) {
         facts["mach"] = options.conditions.mach ? nb::cast(*options.conditions.mach) : nb::none();
         facts["has_layers"] = found.has_layers;

@@ -170,7 +170,7 @@ ChainLeans minimise_leans(std::span<const ColumnLack> lacks, std::span<const Lea
 namespace {
 
 /// Returns the bounds of the lean of the one ray of a vertex. shorter_edge: length of the shorter one of its edges.
-LeanBounds bounds_of_ray(const RayVertex& at, const WallVertex& vertex, double first_height, double shorter_edge) {
+LeanBounds bounds_of_ray(const WallVertex& vertex, double first_height, double shorter_edge) {
     const double from_normals = core::radians(most_lean_from_normals_deg) - 0.5 * std::abs(vertex.turning);
     const double most = std::min({core::radians(most_lean_deg), from_normals,
                                   max_lean_between_edges(vertex.turning, first_height, shorter_edge)});
@@ -204,7 +204,7 @@ Leaners leaners_of(std::span<const RayVertex> outline, std::span<const double> h
             result.bounds.insert(result.bounds.end(), {{-most, given}, {-given, most}});
             result.leans.push_back(&vertex.lean[0]);
         } else {
-            result.bounds.push_back(bounds_of_ray(outline[i], vertex, first_height, std::min(edge_before, edge)));
+            result.bounds.push_back(bounds_of_ray(vertex, first_height, std::min(edge_before, edge)));
         }
         result.leans.push_back(&vertex.lean[vertex.fan]);
         const double opening = (vertex.fan ? 0 : 0.5 * vertex.turning) + (after.fan ? 0 : 0.5 * after.turning);
