@@ -45,10 +45,11 @@ template LAMINA_EXPORT const OptionTable<FlowConditions>& option_table();
 
 void validate(const FlowConditions& conditions) {
     require_in_range(option_table<FlowConditions>(), conditions);
-    const auto& [alpha_deg, alphas, reynolds, mach, chord, velocity, viscosity] = conditions;
+    const bool velocity = conditions.velocity.has_value(), viscosity = conditions.viscosity.has_value();
     if (velocity && !viscosity) throw OptionError("velocity", "needs viscosity, which is not given");
     if (viscosity && !velocity) throw OptionError("viscosity", "needs velocity, which is not given");
-    if (velocity && reynolds) throw OptionError("reynolds", "follows from velocity and viscosity, which are given");
+    if (velocity && conditions.reynolds)
+        throw OptionError("reynolds", "follows from velocity and viscosity, which are given");
 }
 
 std::vector<FlowConditions> conditions_of_angles(const FlowConditions& conditions) {
