@@ -53,7 +53,7 @@ MorphResult morph_to(const MorphMap& map, std::span<const TurnInTime> turns, dou
     try {
         return morph(map, moved_wall_points(map, changes), options);
     } catch (const OptionError& error) {
-        throw OptionError("sequence", error.reason());
+        throw UsageError("option --sequence: " + error.reason());
     } catch (const MeshError& error) {
         throw MeshError(fmt::format("at time {:.6g}: {}", time, error.what()), error.at());
     }
@@ -88,7 +88,7 @@ MorphSequence plan_sequence(const SequenceArguments& arguments, const std::strin
         longest = std::max(longest, duration_of(sequence.turns.back()));
     }
     const double end = arguments.until.value_or(longest);
-    if (!(end > 0 && end <= latest)) throw OptionError("until", fmt::format("must be > 0 and <= {:g}", latest));
+    if (!(end > 0 && end <= latest)) throw UsageError(fmt::format("option --until: must be > 0 and <= {:g}", latest));
     sequence.times = times_up_to(end, arguments.steps);
     if (output.find(step_mark) != std::string::npos) {
         sequence.meshes = files_of_steps(output, sequence.times.size());
