@@ -100,21 +100,22 @@ LAMINA_EXPORT std::vector<Point> displaced_wall_points(const MorphMap& map, cons
 
 /// A turn that swings: mean + amplitude sin(2 pi frequency time).
 struct Pitching {
-    double mean_deg = 0, amplitude_deg = 0;
-    double frequency = 0;  ///< periods in a unit of time, > 0
+    double mean_deg = 0;       ///< in [-180, 180]
+    double amplitude_deg = 0;  ///< in [-180, 180]
+    double frequency = 0;      ///< periods in a unit of time, > 0
 };
 
 /// A turn that begins and ends at rest: angle (1 - cos(pi time / duration)) / 2, and the angle from then on.
 struct Deflecting {
-    double angle_deg = 0;
-    double duration = 0;  ///< > 0
+    double angle_deg = 0;  ///< in [-180, 180]
+    double duration = 0;   ///< > 0
 };
 
 /// How an element turns about a point as time goes on. Angles are positive clockwise: nose up, trailing edge down.
 struct TurnInTime {
-    std::string element;  ///< name of the element, or "all"
-    std::variant<Pitching, Deflecting> course;
-    Point center{};
+    std::string element;                        ///< name of the element, or "all"
+    std::variant<Pitching, Deflecting> course;  ///< the angle as a function of time
+    Point center{};                             ///< of the turn
 };
 
 /// Reads "ELEMENT:pitch:MEAN:AMPLITUDE:FREQUENCY[:X,Y]" or "ELEMENT:deflect:DEG:DURATION[:X,Y]". Throws UsageError with the

@@ -65,7 +65,8 @@ struct CaseOptions {
     double fineness = 1;
     /// How many vertices or cells the mesh is to have, within 3 %: with_scale() then divides the lengths of the options. At
     /// most one of both is given.
-    std::optional<std::size_t> vertices{}, cells{};
+    std::optional<std::size_t> vertices{};
+    std::optional<std::size_t> cells{};  ///< as vertices
     /// Whether the far field is two markers: `inlet`, where a uniform flow at the angle of attack enters, and `outlet`.
     bool inlet_outlet = false;
     std::vector<InternalLine> lines{};  ///< lines inside the domain
