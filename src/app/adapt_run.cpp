@@ -83,7 +83,8 @@ void copy_regions(const Mesh& mesh, Mesh& numbered_anew) {
     SolutionField layer{"layer", true, {}};
     for (const Region region : mesh.region) layer.values.push_back(region == Region::layer ? 1 : 0);
     if (mesh.region.empty()) return;
-    for (const double share : transfer({mesh, {layer}}, numbered_anew).front().values)
+    const std::vector<SolutionField> moved = transfer({mesh, {layer}}, numbered_anew);
+    for (const double share : moved.front().values)
         numbered_anew.region.push_back(share > 0.5 ? Region::layer : Region::isotropic);
 }
 

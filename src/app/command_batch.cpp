@@ -59,7 +59,7 @@ std::vector<std::string> values_in(std::string_view text, const Option<MeshCase>
         const std::size_t comma = std::min(text.find(','), text.size());
         const std::string value(text.substr(0, comma));
         if (takes_numbers(option) && is_range(value)) {
-            for (const double number : values_of(parse_range(value))) values.push_back(to_text(number));
+            for (const double number : values_of(parse_range(value))) values.push_back(to_text(OptionValue(number)));
         } else {
             values.push_back(value);
         }

@@ -197,13 +197,13 @@ struct FlowText {
     std::optional<CompressibleFlow> compressible{};  ///< where the flow is faster than sound
 };
 
-FlowText text_of(const Flow& flow, const std::string& before, bool has_layers) {
+FlowText flow_text(const Flow& flow, const std::string& before, bool has_layers) {
     std::vector<ChartCurve> curves = pressure_curves(flow);
     const std::array<double, 2> pressures = pressures_shown(curves);
     return {flow_table(flow), before + flow_summary(flow, has_layers), std::move(curves), pressures};
 }
 
-FlowText text_of(CompressibleFlow flow) {
+FlowText flow_text(CompressibleFlow flow) {
     std::vector<ChartCurve> curves = pressure_curves(flow);
     double low = 0, high = 0;
     for (const ChartCurve& curve : curves)
@@ -229,8 +229,8 @@ void draw_mach_numbers(const CompressibleFlow& flow, const std::string& file) {
 }
 
 /// Prints the warnings of the flow, and returns its text.
-FlowText text_of(FoundFlow found, const std::optional<double>& mach) {
-    if (found.compressible) return text_of(std::move(*found.compressible));
+FlowText flow_text(FoundFlow found, const std::optional<double>& mach) {
+    if (found.compressible) return flow_text(std::move(*found.compressible));
     print_warnings(found.flow.warnings);
     const std::string before =
         !mach ? ""
@@ -238,7 +238,7 @@ FlowText text_of(FoundFlow found, const std::optional<double>& mach) {
                     "Mach {:.4g} is below the critical Mach number, but for short peaks: pressures and lift of "
                     "incompressible flow, after Karman and Tsien\n",
                     *mach);
-    return text_of(found.flow, before, found.has_layers);
+    return flow_text(found.flow, before, found.has_layers);
 }
 
 std::vector<RunFile> files_written(const FlowArguments& arguments) {
@@ -290,7 +290,7 @@ void flow(const FlowArguments& arguments) {
     const Geometry geometry = read_geometry(mesh_case.inputs, options.geometry);
     print_warnings_of_reader(geometry);
     if (conditions.alphas) return write_flow_polar(arguments, options, geometry, outputs);
-    const FlowText text = text_of(find_flow(geometry, options), conditions.mach);
+    const FlowText text = flow_text(find_flow(geometry, options), conditions.mach);
     if (!arguments.mach_picture.empty() && !text.compressible)
         throw UsageError(
             "option --mach-picture: at this Mach number the flow is slower than sound, but for short peaks");

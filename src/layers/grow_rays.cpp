@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <ranges>
 #include <utility>
 
 #include <fmt/format.h>
@@ -84,9 +83,8 @@ RayLine image_of_ray(const RayLine& ray, const RayLine& before, double y) {
     RayLine image = ray;
     image.origin = geometry::image_of(ray.origin, y);
     image.direction.y = -ray.direction.y;
-    image.corner_after.clear();
-    for (const Point p : std::views::reverse(before.corner_after))
-        image.corner_after.push_back(geometry::image_of(p, y));
+    image.corner_after.assign(before.corner_after.rbegin(), before.corner_after.rend());
+    for (Point& p : image.corner_after) p = geometry::image_of(p, y);
     return image;
 }
 
