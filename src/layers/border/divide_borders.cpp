@@ -351,6 +351,7 @@ void balance_divisions(std::span<const PolygonEdge> edges, std::span<const std::
     constexpr double rounding = 1e-9;
     const double limit = max_ratio * (1 + rounding);
     std::vector<EdgeDivision::EndParts> ends;
+    ends.reserve(edges.size());
     for (std::size_t i = 0; i < edges.size(); ++i) divisions[i].take_parts(divisions[across[i]]);
     for (const EdgeDivision& division : divisions) ends.push_back(division.end_parts());
     std::vector<std::size_t> active(edges.size()),
@@ -495,9 +496,8 @@ std::vector<Point> division_points(const PolygonEdge& edge, const EdgeDivision& 
 /// Returns the points of an edge that lie across from those of another one.
 std::vector<Point> points_across(const PolygonEdge& other, const std::vector<Point>& of_other,
                                  const PolygonEdge& edge) {
-    std::vector<Point> points;
-    for (auto p = of_other.rbegin(); p != of_other.rend(); ++p)
-        points.push_back(edge.a + distance(*p, other.b) / other.length * (edge.b - edge.a));
+    std::vector<Point> points(of_other.rbegin(), of_other.rend());
+    for (Point& p : points) p = edge.a + distance(p, other.b) / other.length * (edge.b - edge.a);
     return points;
 }
 
