@@ -181,8 +181,8 @@ const DeterminantRule& rule_of(unsigned corners, unsigned order) {
 
 // ---- coefficients of one cell ----------------------------------------------------------------------------------------
 
-/// Coefficients of the determinant, of which all shapes and orders leave some at the end unused.
-using Coefficients = std::array<double, 4 * max_cell_order * max_cell_order>;
+/// Coefficients of the determinant: as many as quadrilaterals of the highest order have. Others leave some at the end unused.
+using Coefficients = std::array<double, std::size_t{4} * max_cell_order * max_cell_order>;
 
 /// Coefficients of the determinant on a part of the cell, each of which is within `radius` of the exact one.
 struct Part {
@@ -198,7 +198,7 @@ struct Magnitude {
 
 /// The derivatives of one coordinate, but for a factor, and how large they are.
 struct Derivatives {
-    std::array<double, (max_cell_order + 1) * max_cell_order> along{}, across{};
+    std::array<double, std::size_t{max_cell_order + 1} * max_cell_order> along{}, across{};
     Magnitude largest;
 };
 
