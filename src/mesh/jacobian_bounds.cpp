@@ -181,7 +181,7 @@ const DeterminantRule& rule_of(unsigned corners, unsigned order) {
 
 // ---- coefficients of one cell ----------------------------------------------------------------------------------------
 
-/// Coefficients of the determinant: as many as quadrilaterals of the highest order have. Others leave some at the end unused.
+/// Coefficients of the determinant: as many as quadrilaterals of the highest order have; others leave some unused.
 using Coefficients = std::array<double, std::size_t{4} * max_cell_order * max_cell_order>;
 
 /// Coefficients of the determinant on a part of the cell, each of which is within `radius` of the exact one.

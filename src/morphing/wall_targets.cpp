@@ -104,9 +104,8 @@ std::vector<Point> points_on(const Element& element, std::span<const Point> body
     // An outline that begins at its first corner has curves in the order of the corners.
     std::vector<Point> shape(element.points);
     std::rotate(shape.begin(), shape.begin() + static_cast<std::ptrdiff_t>(of_shape.front()), shape.end());
-    std::vector<std::size_t> begins;
-    for (const std::size_t corner : of_shape)
-        begins.push_back((corner + shape.size() - of_shape.front()) % shape.size());
+    std::vector<std::size_t> begins(of_shape.begin(), of_shape.end());
+    for (std::size_t& begin : begins) begin = (begin + shape.size() - of_shape.front()) % shape.size();
     const CornerOutline from(body, of_body), onto(shape, begins);
     std::vector<Point> points(body.size());
     for (std::size_t k = 0; k < of_body.size(); ++k) {
