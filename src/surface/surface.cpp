@@ -261,6 +261,33 @@ SpacingLimits mirrored_limits(SpacingLimits limits, const Geometry& geometry) {
     return limits;
 }
 
+/// Smooths the outlines that stay simple where they are smoothed.
+void smooth_all(Geometry& given, double tolerance) {
+    Geometry smoothed = given;
+    for (Element& e : smoothed.elements)
+        if (e.sheets.empty()) smooth(e, tolerance);
+    restore_crossing(smoothed, given);
+    given = std::move(smoothed);
+}
+
+void note_scatter(Geometry& given) {
+    for (Element& e : given.elements) {
+        if (is_jagged(e)) continue;
+        add_noise_note(e);
+        add_misplaced_point_notes(e);
+    }
+}
+
+/// Leaves an outline as it is, on the curves between its points unless these are kept on request.
+void keep_points(Plan& plan, Element& element, const Element& given, const ResamplingRequest& request) {
+    element.surface_notes.push_back(fmt::format("{} points kept: {}", element.points.size(), plan.decision.reason));
+    // Points that are kept on request may be as noisy and uneven as they like.
+    const bool on_request = request.options.treatment == SurfaceTreatment::keep;
+    element.smooth = !on_request && !is_jagged(given);
+    if (!on_request && request.limits.points_between > 0)
+        plan.curves = interpolated_edges(element, request.limits.points_between);
+}
+
 }  // namespace
 
 PreparedSurfaces prepare_with_curves(Geometry given, const SurfaceOptions& options, const SpacingLimits& given_limits,
@@ -271,20 +298,10 @@ PreparedSurfaces prepare_with_curves(Geometry given, const SurfaceOptions& optio
     for (const SideEdges& sides : options.side_edges) geometry::require_known_element(given, sides.element, "points");
     const SpacingLimits limits = mirrored_limits(given_limits, given);
     for (Element& e : given.elements) e.features.corners = find_corners(e);
-    if (options.smooth) {
-        Geometry smoothed = given;
-        const double tolerance = in_units(*options.smooth, chord ? *chord : bounding_box(given).width());
-        for (Element& e : smoothed.elements)
-            if (e.sheets.empty()) smooth(e, tolerance);
-        restore_crossing(smoothed, given);
-        given = std::move(smoothed);
-    } else {
-        for (Element& e : given.elements) {
-            if (is_jagged(e)) continue;
-            add_noise_note(e);
-            add_misplaced_point_notes(e);
-        }
-    }
+    if (options.smooth)
+        smooth_all(given, in_units(*options.smooth, chord ? *chord : bounding_box(given).width()));
+    else
+        note_scatter(given);
 
     const ClearanceSearch walls(given);
     const ResamplingRequest request{options, limits, walls};
@@ -295,12 +312,7 @@ PreparedSurfaces prepare_with_curves(Geometry given, const SurfaceOptions& optio
         Plan& plan = plans.emplace_back(Plan{decide(element, i, request), {}});
         treat_sides_alike(element, plan.decision.edges);
         if (plan.decision.keeps_all()) {
-            element.surface_notes.push_back(
-                fmt::format("{} points kept: {}", element.points.size(), plan.decision.reason));
-            // Points that are kept on request may be as noisy and uneven as they like.
-            element.smooth = options.treatment != SurfaceTreatment::keep && !is_jagged(given.elements[i]);
-            if (options.treatment != SurfaceTreatment::keep && limits.points_between > 0)
-                plan.curves = interpolated_edges(element, limits.points_between);
+            keep_points(plan, element, given.elements[i], request);
         } else {
             apply(plan, element, given.elements[i], i, request);
             even_out_joints(plan, element, given.elements[i], i, request);
