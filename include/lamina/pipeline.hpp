@@ -70,7 +70,7 @@ struct CaseOptions {
     /// Whether the far field is two markers: `inlet`, where a uniform flow at the angle of attack enters, and `outlet`.
     bool inlet_outlet = false;
     std::vector<InternalLine> lines{};  ///< lines inside the domain
-    /// Of the cells: 1 makes straight ones, and up to max_cell_order curved ones that follow the walls (MeshResult::curved).
+    /// The order of the cells: 1 makes straight ones, and up to max_cell_order curved ones that follow the walls (MeshResult::curved).
     /// Needs layers of topology quads or layered, or none; excludes sheets and rows of blades.
     unsigned order = 1;
     WorkLimits limits{};   ///< runs beyond them are refused

@@ -38,13 +38,15 @@ void continue_into_layer(const Mesh& mesh, std::vector<char> isotropic, const Ou
     };
     for (std::uint32_t v = 0; v < mesh.points.size(); ++v)
         if (vertices.area[v] > 0) reach(v);
-    for (std::size_t i = 0; i < reached.size(); ++i)
-        for (const std::uint32_t cell : layer.at(reached[i]))
+    for (std::size_t next = 0; next != reached.size();) {  // the list grows on the way
+        const std::uint32_t from = reached[next++];
+        for (const std::uint32_t cell : layer.at(from))
             for (const VertexId to : layer.corners(cell)) {
                 if (is_reached[to.index()] != 0) continue;
-                tensors[to.index()] = tensors[reached[i]];
+                tensors[to.index()] = tensors[from];
                 reach(to.value);
             }
+    }
 }
 
 /// Returns, per vertex of chosen cells, the metric in which the edges of the cells there have the length 1: edges of length 1 in

@@ -87,8 +87,9 @@ std::vector<EdgeValues> wall_curvatures(const Solution& solution, const std::vec
                                         std::span<const double> scales, const ErrorNorm& norm) {
     std::vector<EdgeValues> curvature, friction;
     for (const WallFlow& wall : walls) {
-        EdgeValues values;
-        for (const WallFlowEdge& edge : wall) values.push_back(edge.friction);
+        EdgeValues values(wall.size());
+        std::transform(wall.begin(), wall.end(), values.begin(),
+                       [](const WallFlowEdge& edge) { return edge.friction; });
         friction.push_back(curvatures(wall, values));
         curvature.emplace_back(wall.size(), 0.0);
     }

@@ -8,6 +8,8 @@
 #include <optional>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include <lamina/error.hpp>
 
 #include "app/option_hint.hpp"
@@ -126,19 +128,19 @@ void require_values(const CLI::App& app, const std::vector<std::string>& argumen
     const auto option_named = [&](const std::string& word) -> const CLI::Option* {
         return word.size() > 1 && word.starts_with("-") ? command->get_option_no_throw(word) : nullptr;
     };
-    const std::string help = " (see " + app.get_name() + " " + command->get_name() + " --help)";
+    const std::string help = fmt::format(" (see {} {} --help)", app.get_name(), command->get_name());
     for (std::size_t i = 1; i < arguments.size() && arguments[i] != "--"; ++i) {
         const bool is_empty = arguments[i].ends_with('=');
         const std::string name = arguments[i].substr(0, arguments[i].size() - (is_empty ? 1 : 0));
         const CLI::Option* option = option_named(name);
         if (option == nullptr || option->get_items_expected_min() == 0) continue;
-        if (is_empty) throw UsageError(name + ": the value is empty" + help);
+        if (is_empty) throw UsageError(fmt::format("{}: the value is empty{}", name, help));
         const std::string following = i + 1 < arguments.size() ? arguments[i + 1] : "";
         if (i + 1 < arguments.size() && option_named(following.substr(0, following.find('='))) == nullptr) {
             ++i;  // the value
             continue;
         }
-        throw UsageError(name + " wants a value: " + values_of(*option) + help);
+        throw UsageError(fmt::format("{} wants a value: {}{}", name, values_of(*option), help));
     }
 }
 
@@ -183,7 +185,8 @@ void check_values(CLI::App& app) {
 
 /// Returns the reason of an error of CLI11, which says "Could not convert: --jobs = -1" of values that are no numbers.
 std::string reason_of(const CLI::ParseError& error) {
-    const std::string text = error.what(), beginning = "Could not convert: ", divider = " = ";
+    std::string text = error.what();
+    const std::string beginning = "Could not convert: ", divider = " = ";
     const std::size_t end = text.find(divider);
     if (!text.starts_with(beginning) || end == std::string::npos) return text;
     return "option " + text.substr(beginning.size(), end - beginning.size()) + ": '" +

@@ -1,5 +1,6 @@
 #include "app/completion.hpp"
 
+#include <algorithm>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -22,8 +23,8 @@ std::string escaped(std::string_view text, std::string_view special) {
 }
 
 std::vector<std::string> names_of(const std::vector<CommandFacts>& commands) {
-    std::vector<std::string> names;
-    for (const CommandFacts& command : commands) names.push_back(command.name);
+    std::vector<std::string> names(commands.size());
+    std::transform(commands.begin(), commands.end(), names.begin(), [](const CommandFacts& c) { return c.name; });
     names.emplace_back("help");
     return names;
 }

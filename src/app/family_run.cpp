@@ -188,8 +188,8 @@ void run_family(const FamilyArguments& arguments, const MeshCase& mesh_case,
     ProgressPrinter progress(mesh_case.progress, mesh_case.quiet);
     std::size_t warnings = 0;
     // The finest mesh comes first: what it asks too much of fails before anything is written.
-    for (auto member = members.rbegin(); member != members.rend(); ++member)
-        make_member(geometry, destination_of_level, progress, *member, warnings);
+    std::for_each(members.rbegin(), members.rend(),
+                  [&](Member& member) { make_member(geometry, destination_of_level, progress, member, warnings); });
     write_file(table, family_table(members));
     if (!mesh_case.quiet) print_summary(family_summary(members, table), outputs);
     if (warnings > 0 && mesh_case.strict)

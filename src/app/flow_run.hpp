@@ -22,7 +22,7 @@ Geometry in_row(Geometry geometry, const CaseOptions& options);
 /// Solves compressible flow where it is faster than sound, else potential flow with boundary layers, whose pressures are
 /// those of compressible flow where there is a Mach number. Throws OptionError for options out of range.
 FoundFlow find_flow(Geometry geometry, const CaseOptions& options);
-/// The same at conditions of their own. `given` are the bodies as read, in_row(), and `prepared` those with smooth walls.
+/// Finds the flow at conditions beside those of the options. `given` are the bodies as read, in_row(), and `prepared` those with smooth walls.
 FoundFlow find_flow(const Geometry& given, const Geometry& prepared, const FlowConditions& conditions,
                     const FlowWalls& walls);
 

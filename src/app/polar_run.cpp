@@ -135,7 +135,7 @@ private:
             row.note = moved(error.what(), folder, failed);
             return {row, {}};
         }
-        const SolvedAngle angle = solved_angle(alpha, forces);
+        SolvedAngle angle = solved_angle(alpha, forces);
         write_file(folder / row_file, to_text(json_of(angle, digits_of(alpha))));
         fs::rename(folder, folder_of(alpha));
         return angle;

@@ -99,6 +99,7 @@ std::vector<Marker> markers_in_pairs(const MeshView& mesh) {
 /// Writes vectors of the vertices in each plane, with the third components of the planes.
 void write_planes(std::ostream& out, std::span<const Point> points, const std::vector<double>& heights) {
     std::vector<std::string> ends;
+    ends.reserve(heights.size());
     for (const double height : heights) ends.push_back(fmt::format("{})", height));
     write_list(out, heights.size() * points.size(), [&](LineText& line, std::size_t i) {
         line.tight("(") << points[i % points.size()] << ends[i / points.size()];

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <numeric>
@@ -161,9 +162,10 @@ std::vector<std::size_t> vtk_order_of_quad(unsigned order) {
     const std::span<const mesh::LatticePlace> lattice = mesh::lattice_of_cell(4, order);
     std::vector<std::size_t> places(lattice.size());
     std::iota(places.begin(), places.end(), std::size_t{0});
-    const auto begin = places.begin() + 4 + 2 * (order - 1), inner = begin + 2 * (order - 1);
-    std::reverse(begin, begin + (order - 1));
-    std::reverse(begin + (order - 1), inner);
+    const std::ptrdiff_t between = order - 1;  // nodes of an edge beside its ends
+    const auto begin = places.begin() + 4 + 2 * between, inner = begin + 2 * between;
+    std::reverse(begin, begin + between);
+    std::reverse(begin + between, inner);
     std::sort(inner, places.end(), [&](std::size_t a, std::size_t b) {
         return std::pair(lattice[a].j, lattice[a].i) < std::pair(lattice[b].j, lattice[b].i);
     });
@@ -219,17 +221,23 @@ void add_lagrange_cells(const VtuCells& cells, const LagrangeCells& lagrange, Vt
     vtu.xml += "      </Cells>\n";
 }
 
-void write_grid(const MeshView& mesh, const AddData& add_point_data, bool compressed, const SizedMesh* sizes,
-                std::ostream& out, const AddData& add_to_cells = {}, const CurvedNodes& curved = {}) {
+/// What a file holds beside the mesh.
+struct GridData {
+    AddData at_points{}, at_cells{};
+    const SizedMesh* sizes = nullptr;
+};
+
+void write_grid(const MeshView& mesh, const GridData& data, bool compressed, std::ostream& out,
+                const CurvedNodes& curved = {}) {
     const VtuCells cells(mesh);
     const LagrangeCells lagrange = curved.order > 1 ? LagrangeCells(cells, curved) : LagrangeCells{};
     VtuWriter vtu(compressed);
     vtu.xml = vtu_head(compressed);
-    add_vtu_field_data(mesh.markers, mesh.constraints, sizes, vtu);
+    add_vtu_field_data(mesh.markers, mesh.constraints, data.sizes, vtu);
     vtu.xml += fmt::format("    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
                            mesh.points.size() + curved.points.size(), cells.count());
-    if (add_point_data) add_point_data(vtu);
-    add_cell_data(mesh, cells, add_to_cells, vtu);
+    if (data.at_points) data.at_points(vtu);
+    add_cell_data(mesh, cells, data.at_cells, vtu);
     add_points(mesh, curved.points, vtu);
     if (curved.order > 1)
         add_lagrange_cells(cells, lagrange, vtu);
@@ -291,11 +299,11 @@ void add_vtu_field_data(std::span<const Marker> markers, std::span<const Segment
 
 void write_vtu(const MeshView& mesh, VtuVariant variant, std::ostream& out) {
     const std::vector<double> distances = variant.wall_distance ? wall_distances(mesh) : std::vector<double>{};
-    write_grid(mesh, point_data("wall_distance", distances), variant.compressed, nullptr, out);
+    write_grid(mesh, {point_data("wall_distance", distances)}, variant.compressed, out);
 }
 
 void write_curved_vtu(const MeshView& mesh, const CurvedNodes& nodes, bool compressed, std::ostream& out) {
-    write_grid(mesh, {}, compressed, nullptr, out, {}, nodes);
+    write_grid(mesh, {}, compressed, out, nodes);
 }
 
 void write_vtu_part(const MeshView& part, std::span<const VertexId> vertices, std::ostream& out) {
@@ -305,7 +313,7 @@ void write_vtu_part(const MeshView& part, std::span<const VertexId> vertices, st
                                     [&](std::size_t i) { return std::int64_t{vertices[i].value}; });
         vtu.xml += "      </PointData>\n";
     };
-    write_grid(part, add_ids, false, nullptr, out);
+    write_grid(part, {add_ids}, false, out);
 }
 
 void write_vtu_solution(const Solution& solution, std::ostream& out) {
@@ -316,14 +324,14 @@ void write_vtu_solution(const Solution& solution, std::ostream& out) {
     };
     const std::size_t cells = VtuCells(solution.mesh).count();
     const auto at_cells = [&](VtuWriter& vtu) { add_fields(solution.fields, true, cells, vtu); };
-    write_grid(solution.mesh, at_points, true, nullptr, out, at_cells);
+    write_grid(solution.mesh, {at_points, at_cells}, true, out);
 }
 
 void write_vtu_sizes(const SizedMesh& sizes, std::ostream& out) {
     Mesh mesh;
     mesh.points = sizes.points;
     mesh.triangles = sizes.triangles;
-    write_grid(mesh, point_data("size", sizes.sizes), true, &sizes, out);
+    write_grid(mesh, {point_data("size", sizes.sizes), {}, &sizes}, true, out);
 }
 
 }  // namespace lamina::io
