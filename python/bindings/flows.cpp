@@ -117,6 +117,12 @@ nb::dict find_flow(const nb::list& given, const std::vector<std::pair<std::strin
     if (!found.compressible) {
         facts["mach"] = options.conditions.mach ? nb::cast(*options.conditions.mach) : nb::none();
         facts["has_layers"] = found.has_layers;
+        const FlowForces forces = flow_forces(found.flow);
+        facts["moment"] = forces.moment;
+        if (found.has_layers) {
+            facts["drag"] = forces.drag;
+            facts["viscous_drag"] = forces.drag;
+        }
     }
     return facts;
 }

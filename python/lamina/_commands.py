@@ -68,7 +68,7 @@ class ElementFlow(Values):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Flow(Values):
-    """The flow before a mesh. Where it is nowhere faster than sound, all drags and the mesh are None."""
+    """The flow before a mesh. Where it is nowhere faster than sound, the mesh is None, and so are drags without layers."""
 
     alpha: float  #: direction of the free stream, in degrees
     chord: float  #: reference length of the coefficients
@@ -77,7 +77,8 @@ class Flow(Values):
     mach: float | None = None  #: of the free stream
     has_layers: bool = False  #: whether there are boundary layers
     warnings: Sequence[MeshWarning] = ()  #: where the flow separates, or could not be found
-    drag: float | None = None  #: drag coefficient
+    drag: float | None = None  #: drag coefficient; of attached layers by Squire and Young
+    moment: float | None = None  #: of the pressures, nose up, about a quarter chord; None with shocks
     viscous_drag: float | None = None  #: of boundary layers and wakes
     wave_drag: float | None = None  #: of shocks
     converged: bool = True  #: whether the flow is steady
