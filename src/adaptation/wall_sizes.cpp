@@ -95,6 +95,7 @@ std::vector<EdgeValues> wall_curvatures(const Solution& solution, const std::vec
     }
     for (std::size_t f = 0; f < scales.size(); ++f) {
         std::vector<EdgeValues> of_field;
+        of_field.reserve(walls.size());
         for (const WallFlow& wall : walls) of_field.push_back(curvatures(wall, values_on(wall, solution.fields[f])));
         raise(curvature, of_field, scales[f]);
     }

@@ -352,6 +352,7 @@ FlowGuidance guide_by_flow(const Geometry& given, const FlowWalls& walls, const 
     const Geometry geometry = geometry::with_images(given);
     const std::vector<FlowConditions> angles = conditions_of_angles(flow_conditions);
     std::vector<AngleFlow> flows;
+    flows.reserve(angles.size());
     for (const FlowConditions& angle : angles)
         flows.push_back(flow_at_angle(geometry, walls, angle, options, conditions, growth.fineness));
     const auto nearest =

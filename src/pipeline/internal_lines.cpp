@@ -336,7 +336,7 @@ LineGraph arrange_lines(std::span<const InternalLine> lines, const decoupling::F
         for (const auto& [edge, points] : inserted[e]) on_wall.insert(points.begin(), points.end());
         if (!inserted[e].empty()) insert_vertices(inserted[e], geometry.elements[e]);
     }
-    const LineGraph graph = number_pieces(arrangement, pieces, moved, on_wall);
+    LineGraph graph = number_pieces(arrangement, pieces, moved, on_wall);
     require_connected_domain(graph, lines, geometry);
     require_clear_of_sheets(graph, lines, geometry);
     return graph;

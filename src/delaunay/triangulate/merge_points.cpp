@@ -114,22 +114,34 @@ std::vector<char> have_near_points(std::span<const Point> points, double merge_d
     return near;
 }
 
+/// The points that stand for themselves, in a list for each cell. They are far from each other, so a list is short.
+struct PointsInCells {
+    std::unordered_map<Point, Index, PointHash> first;
+    std::vector<Index> next;
+
+    Index first_in(Point cell) const {
+        const auto list = first.find(cell);
+        return list == first.end() ? no_index : list->second;
+    }
+
+    void add(Index i, Point cell) {
+        const auto [list, is_new] = first.try_emplace(cell, i);
+        if (!is_new) next[i] = std::exchange(list->second, i);
+    }
+};
+
 std::vector<Index> merge_close_points(std::span<const Point> points, double merge_distance) {
-    // Points that stand for themselves are far from each other, so a cell holds few: they form a list for each cell.
-    std::unordered_map<Point, Index, PointHash> first_in_cell;
-    std::vector<Index> next_in_cell(points.size(), no_index), stand_in(points.size());
+    PointsInCells kept{.first = {}, .next = std::vector<Index>(points.size(), no_index)};
+    std::vector<Index> stand_in(points.size());
     // Beyond 2^53 cells from the origin the cells next to one may be the cell itself, and are, as are its points' own.
     const std::vector<char> near = have_near_points(points, merge_distance);
     // Returns the first point near point i of those that stand for themselves; i where there is none.
     const auto first_near = [&](Index i, Point cell) {
         Index found = i;
         for (const double dx : {-1.0, 0.0, 1.0})
-            for (const double dy : {-1.0, 0.0, 1.0}) {
-                const auto list = first_in_cell.find({cell.x + dx + 0.0, cell.y + dy + 0.0});
-                for (Index k = list == first_in_cell.end() ? no_index : list->second; k != no_index;
-                     k = next_in_cell[k])
+            for (const double dy : {-1.0, 0.0, 1.0})
+                for (Index k = kept.first_in({cell.x + dx + 0.0, cell.y + dy + 0.0}); k != no_index; k = kept.next[k])
                     if (k < found && distance(points[k], points[i]) <= merge_distance) found = k;
-            }
         return found;
     };
     for (Index i = 0; i < points.size(); ++i) {
@@ -137,9 +149,7 @@ std::vector<Index> merge_close_points(std::span<const Point> points, double merg
         if (!near[i]) continue;
         const Point cell = cell_containing(points[i], merge_distance);
         stand_in[i] = first_near(i, cell);
-        if (stand_in[i] != i) continue;
-        const auto [list, is_new] = first_in_cell.try_emplace(cell, i);
-        if (!is_new) next_in_cell[i] = std::exchange(list->second, i);
+        if (stand_in[i] == i) kept.add(i, cell);
     }
     return stand_in;
 }
