@@ -6,11 +6,11 @@
 
 #include <fmt/format.h>
 
+#include <lamina/error.hpp>
+#include <lamina/geometry.hpp>
 #include <lamina/layers.hpp>
 
 #include "core/angles.hpp"
-#include "core/box_tree.hpp"
-#include "core/segments.hpp"
 #include "layers/growth_laws.hpp"
 #include "layers/layer.hpp"
 #include "layers/stages.hpp"
@@ -23,50 +23,17 @@ constexpr std::size_t max_findings = 20;
 /// Where a column is stretched to end at the front, growths differ from those of the law by this factor at most.
 constexpr double max_change_of_growth = 3;
 
-/// A directed edge of a wall or border.
-struct ElementEdge {
-    VertexId a, b;
-    std::size_t element;
-};
-
-/// The walls or the borders of all elements.
-struct Loops {
-    const char* name;  ///< "wall" or "border"
-    const std::vector<std::vector<VertexId>>& vertices;
-    std::vector<ElementEdge> edges;
-    core::BoxTree tree;  ///< over the edges
-
-    Loops(const char* loop_name, const std::vector<std::vector<VertexId>>& loops, const std::vector<Point>& points)
-        : name(loop_name), vertices(loops), tree({}) {
-        std::vector<Box> boxes;
-        for (std::size_t e = 0; e < loops.size(); ++e) {
-            for (std::size_t k = 0; k < loops[e].size(); ++k) {
-                const VertexId a = loops[e][k], b = loops[e][(k + 1) % loops[e].size()];
-                edges.push_back({a, b, e});
-                boxes.push_back(core::bounding_box(points[a.index()], points[b.index()]));
-            }
-        }
-        tree = core::BoxTree(std::move(boxes));
-    }
-};
-
 class LayerChecker {
 public:
     LayerChecker(const Layer& layer, const LayerOptions& options, const BorderOptions& border_options)
-        : layer_(layer),
-          options_(options),
-          border_options_(border_options),
-          walls_("wall", layer.walls, layer.points),
-          borders_("border", layer.borders, layer.points) {}
+        : layer_(layer), options_(options), border_options_(border_options) {}
 
     std::vector<std::string> run() && {
         check_points();
-        check_loops(walls_);
-        check_loops(borders_);
-        check_borders_against_walls();
+        check_loops("wall", layer_.walls);
+        check_loops("border", layer_.borders);
         check_rays();
         check_cells();
-        check_sides();
         check_ratio();
         return std::move(findings_);
     }
@@ -75,7 +42,6 @@ private:
     const Layer& layer_;
     const LayerOptions& options_;
     const BorderOptions& border_options_;
-    Loops walls_, borders_;
     std::vector<std::string> findings_;
 
     Point at(VertexId v) const { return layer_.points[v.index()]; }
@@ -95,58 +61,17 @@ private:
         }
     }
 
-    /// Checks that loops are counter-clockwise, simple and disjoint.
-    void check_loops(const Loops& loops) {
-        for (const std::vector<VertexId>& loop : loops.vertices) {
-            double area = 0;
-            for (std::size_t k = 0; k < loop.size(); ++k)
-                area += cross(at(loop[k]) - at(loop[0]), at(loop[(k + 1) % loop.size()]) - at(loop[0]));
-            if (loop.size() < 3 || !(area > 0))
-                report(fmt::format("{} is not counter-clockwise", loops.name), at(loop[0]));
+    /// Checks that walls or borders are counter-clockwise, simple and disjoint.
+    void check_loops(const char* name, const std::vector<std::vector<VertexId>>& loops) {
+        Geometry geometry;
+        for (const std::vector<VertexId>& loop : loops) {
+            Element& element = geometry.elements.emplace_back();
+            for (const VertexId v : loop) element.points.push_back(at(v));
         }
-        for (std::size_t i = 0; i < loops.edges.size(); ++i) {
-            const ElementEdge& edge = loops.edges[i];
-            loops.tree.overlaps(core::bounding_box(at(edge.a), at(edge.b)), [&](std::size_t j) {
-                if (j > i) check_pair(loops.name, edge, loops.edges[j]);
-            });
-        }
-    }
-
-    /// Checks that two edges of loops of one kind meet in a common end only.
-    void check_pair(const char* name, const ElementEdge& edge, const ElementEdge& other) {
-        const auto [a, b, element] = edge;
-        const auto [c, d, other_element] = other;
-        if (b == c && a == d) {
-            report(fmt::format("{} runs to and fro", name), at(a));
-        } else if (b == c) {
-            if (core::segments_fold(at(b), at(a), at(d))) report(fmt::format("{} folds back", name), at(b));
-        } else if (a == d) {
-            if (core::segments_fold(at(a), at(b), at(c))) report(fmt::format("{} folds back", name), at(a));
-        } else if (core::segments_meet(at(a), at(b), at(c), at(d))) {
-            report(fmt::format("{} edges meet", name), at(a));
-        }
-    }
-
-    void check_borders_against_walls() {
-        for (const ElementEdge& border : borders_.edges)
-            walls_.tree.overlaps(core::bounding_box(at(border.a), at(border.b)),
-                                 [&](std::size_t j) { check_border_against_wall(border, walls_.edges[j]); });
-    }
-
-    /// Checks that an edge of a border is this edge of the wall, or meets it in a common end only.
-    void check_border_against_wall(const ElementEdge& border, const ElementEdge& wall) {
-        const auto [a, b, element] = border;
-        const auto [c, d, wall_element] = wall;
-        if (a == c && b == d) return;
-        const bool shares_a = a == c || a == d, shares_b = b == c || b == d;
-        if (!shares_a && !shares_b) {
-            if (core::segments_meet(at(a), at(b), at(c), at(d))) report("border meets wall", at(a));
-        } else if (shares_a && shares_b) {
-            report("border runs along a wall the wrong way", at(a));
-        } else {
-            const VertexId apex = shares_a ? a : b;
-            if (core::segments_fold(at(apex), at(shares_a ? b : a), at(apex == c ? d : c)))
-                report("border overlaps a wall", at(apex));
+        try {
+            check_simple(geometry);
+        } catch (const InputError& error) {
+            report(fmt::format("{}: {}", name, error.what()), at(loops[0][0]));
         }
     }
 
@@ -244,7 +169,8 @@ private:
     }
 
     /// Checks that each quadrilateral between two neighbouring rays is convex, and that each triangle in a fan or at a
-    /// step is positive.
+    /// step is positive. Then no two cells overlap, and none leaves the space between wall and border: each point is in
+    /// as many cells as the border winds round it more often than the wall does, which both do once at most.
     void check_cells_between(const Ray& ray, const Ray& next) {
         const std::uint32_t common = std::min(ray.layers, next.layers);
         for (std::uint32_t n = 1; n <= common; ++n) {
@@ -258,62 +184,6 @@ private:
         const Point a = at(ray.vertex(common)), d = at(next.vertex(common));
         const Point top = at((ray.layers > common ? ray : next).vertex(common + 1));
         if (!(a == d) && orient2d(a, top, d) <= 0) report("crossed cell at a step", a);
-    }
-
-    /// The position of a point relative to loops.
-    struct Sides {
-        bool in_own = false;     ///< inside the loop of its own element
-        bool in_others = false;  ///< inside an odd number of the other loops
-        bool on_edge = false;    ///< on an edge of any loop
-    };
-
-    /// Returns where p lies, by the parity of the edges that the upward vertical from p crosses. Exact.
-    Sides sides_of(Point p, std::size_t element, const Loops& loops) const {
-        Sides sides;
-        loops.tree.overlaps({p, {p.x, HUGE_VAL}}, [&](std::size_t i) {
-            Point a = at(loops.edges[i].a), b = at(loops.edges[i].b);
-            if (b.x < a.x) std::swap(a, b);
-            const double side = orient2d(a, b, p);
-            if (side == 0 && core::bounding_box(a, b).contains(p)) sides.on_edge = true;
-            if ((a.x <= p.x) == (b.x <= p.x) || side >= 0) return;
-            bool& inside = loops.edges[i].element == element ? sides.in_own : sides.in_others;
-            inside = !inside;
-        });
-        return sides;
-    }
-
-    /// Returns the element that each point belongs to.
-    std::vector<std::size_t> elements_of_points() const {
-        std::vector<std::size_t> element(layer_.points.size(), 0);
-        for (std::size_t e = 0; e < layer_.rays.size(); ++e)
-            for (const Ray& ray : layer_.rays[e])
-                for (std::uint32_t n = 0; n <= ray.layers; ++n) element[ray.vertex(n).index()] = e;
-        for (const LayerCore& core : layer_.cores)
-            for (const auto& chain : core.chains)
-                for (const VertexId v : chain) element[v.index()] = core.element;
-        for (const Loops* loops : {&walls_, &borders_})
-            for (const ElementEdge& edge : loops->edges) element[edge.a.index()] = edge.element;
-        return element;
-    }
-
-    /// Checks that points off the walls lie outside all walls, and that points below the border lie strictly inside
-    /// their own border and outside those of other elements.
-    void check_sides() {
-        const std::vector<std::size_t> element = elements_of_points();
-        std::vector<char> on_border(layer_.points.size(), 0);
-        for (const ElementEdge& edge : borders_.edges) on_border[edge.a.index()] = 1;
-        for (std::size_t i = 0; i < layer_.points.size(); ++i) {
-            const Point p = layer_.points[i];
-            if (i >= layer_.wall_points) {
-                const Sides wall_sides = sides_of(p, element[i], walls_);
-                if (wall_sides.on_edge || wall_sides.in_own || wall_sides.in_others)
-                    report("point not outside the walls", p);
-            }
-            const Sides border_sides = sides_of(p, element[i], borders_);
-            if (border_sides.in_others) report("point inside another element's border", p);
-            if (on_border[i]) continue;
-            if (border_sides.on_edge || !border_sides.in_own) report("point not inside its border", p);
-        }
     }
 
     /// Checks that adjacent border edges keep BorderOptions::max_ratio.
