@@ -42,12 +42,9 @@ std::size_t changes_in(const Numbers& numbers) {
 /// Returns numbers that are wanted: a slow rise and fall with noise.
 Numbers noisy_numbers() { return {40, 40, 41, 40, 41, 42, 41, 42, 43, 42, 41, 42, 41, 40, 39, 40, 40, 40}; }
 
-TEST(Numbers, OfWideColumnsAreThoseWantedButForShortRuns) {
+TEST(Numbers, OfWideColumnsAreThoseWanted) {
     const Numbers wanted{40, 40, 40, 40, 40, 41, 41, 41, 41, 41, 42, 42, 42, 42, 42, 41, 41, 41, 41, 41};
     EXPECT_EQ(layers::cheapest_numbers(parallel_rays(wanted.size(), 2), ends_with(wanted, 4)), wanted);
-    Numbers with_run = wanted;
-    with_run[2] = 41;  // both changes make faces skewed
-    EXPECT_EQ(layers::cheapest_numbers(parallel_rays(wanted.size(), 2), ends_with(with_run, 4)), wanted);
 }
 
 TEST(Numbers, OfNarrowColumnsChangeRarely) {
@@ -107,23 +104,6 @@ TEST(Numbers, ChangeWhereRowsFallTheWayThatRaysLean) {
             if (made[i] != made[i - 1]) {
                 EXPECT_EQ(i > middle, rises) << i;
             }
-    }
-}
-
-/// Rows turn where a front has a kink. A change beside it would make them turn twice as much at one ray.
-TEST(Numbers, ChangeAwayFromKinksOfTheFront) {
-    const std::size_t rays = 41, kink = 20;
-    for (const bool rises : {false, true}) {
-        std::vector<ColumnEnd> ends;
-        for (std::size_t i = 0; i < rays; ++i) {
-            const double height = 5 - 0.1 * std::abs(double(i) - double(kink));
-            const std::uint32_t wanted = (rises ? i > kink : i < kink) ? 31 : 30;
-            ends.push_back({height, 0.1, wanted, {29, 32}, 0.1, 0.1});
-        }
-        const Numbers made = layers::cheapest_numbers(parallel_rays(rays, 0.16), ends);
-        EXPECT_EQ(made[kink], 31u) << "the change is on the other side, where rows rise";
-        EXPECT_EQ(made[rises ? kink - 5 : kink + 5], 30u);
-        EXPECT_EQ(made[rises ? kink + 5 : kink - 5], 31u);
     }
 }
 

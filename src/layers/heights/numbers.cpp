@@ -18,14 +18,6 @@
 //       / /_/ /             / / /_/
 //      / / / /_            / / / /
 //
-// A change costs as much, too, where rows turn at one of its rays so that the middles of the cells on both sides lie far
-// below the middle of the face between them:
-//
-//        __|__
-//       /  |  \      rows that fall away from
-//      /  _|_  \     a ray on both sides
-//        / | \     .
-//
 // Source: R. Bellman, Dynamic Programming (1957): the cheapest sequence, ray by ray.
 #include "layers/heights/numbers.hpp"
 
@@ -41,28 +33,26 @@ namespace lamina::layers {
 
 namespace {
 
-constexpr double most_tangent = 8;
+/// A row between two neighbouring rays.
+struct ColumnRow {
+    double width;  ///< across the rays
+    double rise;   ///< along the rays, from the first to the second
+};
 
-}  // namespace
-
+/// Returns the row between the points of two rays at these heights.
 ColumnRow row_between(const RayLine& a, double height_a, const RayLine& b, double height_b) {
     const Point row = b.origin + height_b * b.direction - (a.origin + height_a * a.direction);
     const Point along = unit(a.direction + b.direction);
     return {std::abs(cross(row, along)), dot(row, along)};
 }
 
+/// Returns the tangent by which a row is off a right angle with its rays, at most 8: sums of such tangents are exact
+/// enough for small ones.
 double tangent_of(const ColumnRow& row) {
+    constexpr double most_tangent = 8;
     const double shift = std::abs(row.rise);
     return shift < most_tangent * row.width ? shift / row.width : most_tangent;
 }
-
-double skewness_between(const ColumnRow& before, const ColumnRow& after, double height) {
-    const double off = std::abs(before.rise * after.width - after.rise * before.width);
-    const double whole = (before.width + after.width) * height;
-    return off < most_tangent * whole ? off / whole : most_tangent;
-}
-
-namespace {
 
 /// It costs this much for each layer. So of two sequences that cost the same otherwise, as in mirrored input, the one
 /// with fewer layers is taken.
@@ -88,17 +78,12 @@ double last_spacing(const ColumnEnd& end, std::uint32_t n) {
     return end.last_spacing;
 }
 
-/// Returns what it costs that the number of layers changes from `before` to `n` on the column before ray k. The topmost
-/// row that both rays share is one layer below the front on one of them. At both rays it meets rows of the front, which
-/// makes faces skewed; a skewness costs as much as a tangent of that size.
+/// Returns what it costs that the number of layers changes from `before` to `n` on the column before ray k: the topmost row
+/// that both rays share is one layer below the front on one of them.
 double cost_of_change(std::span<const RayChoices> rays, std::size_t k, std::uint32_t before, std::uint32_t n) {
-    const RayChoices &ray = rays[k], &ray_before = rays[k - 1], &ray_after = rays[k + 1 < rays.size() ? k + 1 : 1];
-    const double spacing = last_spacing(*ray.end, n), spacing_before = last_spacing(*ray_before.end, before);
-    ColumnRow row = ray.row;
-    row.rise += n > before ? -spacing : spacing_before;
-    const double skewness =
-        std::max(skewness_between(ray_before.row, row, spacing_before), skewness_between(row, ray_after.row, spacing));
-    const double tangent = std::max(tangent_of(row), skewness), square = tangent * tangent;
+    ColumnRow row = rays[k].row;
+    row.rise += n > before ? -last_spacing(*rays[k].end, n) : last_spacing(*rays[k - 1].end, before);
+    const double tangent = tangent_of(row), square = tangent * tangent;
     return square * square;
 }
 
