@@ -24,7 +24,7 @@ RaySet parallel_rays(std::size_t count, double apart) { return test::rays_in_a_r
 
 /// Returns the end of a column 1 high, whose last layer is 0.1 high with any number of layers.
 ColumnEnd end_with(std::uint32_t wanted, std::uint32_t below, std::uint32_t above) {
-    return {1, 0.1, wanted, {wanted - below, wanted + above}, 0.1, 0.1};
+    return {1, 0.1, wanted, {wanted - below, wanted + above}};
 }
 
 std::vector<ColumnEnd> ends_with(const Numbers& wanted, std::uint32_t off) {
@@ -96,7 +96,7 @@ TEST(Numbers, ChangeWhereRowsFallTheWayThatRaysLean) {
             set.lines[i].direction = core::rotated(set.lines[i].direction, core::radians(-lean));
             const bool first = i == 0, last = i + 1 >= rays - 1;
             const std::uint32_t held = first == rises ? 30 : 31;
-            ends.push_back({1, 0.1, held, {first || last ? held : 30, first || last ? held : 31}, 0.1, 0.1});
+            ends.push_back({1, 0.1, held, {first || last ? held : 30, first || last ? held : 31}});
         }
         const Numbers made = layers::cheapest_numbers(set, ends);
         EXPECT_EQ(changes_in(made), 1u);

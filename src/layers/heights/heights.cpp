@@ -223,6 +223,7 @@ public:
             const Stretch stretch = whole ? Stretch{} : stretch_of_layers(front_[i], heights_[i], layers_[i]);
             heights_[i].resize(layers_[i] + std::size_t{1});
             stretch_heights(stretch, heights_[i]);
+            if (!whole) heights_[i].back() = std::min(heights_[i].back(), front_[i]);
             columns.push_back({table.size(), layers_[i], asked_layers[i], is_cut(i), law_.growth(i), stretch});
             table.insert(table.end(), heights_[i].begin(), heights_[i].end());
         }
@@ -270,16 +271,9 @@ private:
         const double front = front_[ray];
         const std::span<const double> heights = heights_[ray];
         const bool stays = growth_.layers && !is_cut(ray);
-        const std::uint32_t n = stays ? layer_count(heights) : layers_up_to(front, heights).layers;
+        const std::uint32_t n = stays ? layer_count(heights) : layers_up_to(front, heights);
         const LayerRange range = stays ? LayerRange{n, n} : layer_range(front, heights, n);
-        const auto spacing = [&](std::uint32_t layers) { return stretched_last_spacing(front, heights, layers); };
-        const double last = spacing(n);
-        return {front,
-                last,
-                n,
-                range,
-                range.least < n ? spacing(range.least) : last,
-                range.most > n ? spacing(range.most) : last};
+        return {front, stretched_last_spacing(front, heights, n), n, range};
     }
 
     void choose_numbers() {
@@ -300,8 +294,7 @@ private:
             const std::vector<double> spacings = spacings_up_to(asked_);
             for (std::size_t i = 0; i < counts.size(); ++i)
                 if (is_cut(i))
-                    counts[i] =
-                        std::max(counts[i], layers_up_to(asked_[i], heights_beyond(asked_[i], i, spacings[i])).layers);
+                    counts[i] = std::max(counts[i], layers_up_to(asked_[i], heights_beyond(asked_[i], i, spacings[i])));
         }
         return counts;
     }

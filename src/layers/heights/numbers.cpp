@@ -60,29 +60,15 @@ constexpr double cost_of_layer = 1e-6;
 
 /// What a ray may have.
 struct RayChoices {
-    LayerRange range;
-    std::uint32_t wanted;
     const ColumnEnd* end;
     ColumnRow row;  ///< of the front, from the ray before to this one
 };
 
-/// Returns the height of the last of n layers, which are stretched to end at the front: between those of the number that
-/// is wanted and of the least or the most.
-double last_spacing(const ColumnEnd& end, std::uint32_t n) {
-    const auto between = [&](std::uint32_t other, double spacing) {
-        const double share = (double(n) - double(end.wanted)) / (double(other) - double(end.wanted));
-        return end.last_spacing + std::min(share, 1.0) * (spacing - end.last_spacing);
-    };
-    if (n < end.wanted && end.layers.least < end.wanted) return between(end.layers.least, end.spacing_of_least);
-    if (n > end.wanted && end.layers.most > end.wanted) return between(end.layers.most, end.spacing_of_most);
-    return end.last_spacing;
-}
-
-/// Returns what it costs that the number of layers changes from `before` to `n` on the column before ray k: the topmost row
-/// that both rays share is one layer below the front on one of them.
-double cost_of_change(std::span<const RayChoices> rays, std::size_t k, std::uint32_t before, std::uint32_t n) {
-    ColumnRow row = rays[k].row;
-    row.rise += n > before ? -last_spacing(*rays[k].end, n) : last_spacing(*rays[k - 1].end, before);
+/// Returns what it costs that the number of layers changes from `before` to `n` on the column behind `ray_before`: the topmost
+/// row that both rays share is one layer below the front on one of them.
+double cost_of_change(const RayChoices& ray_before, const RayChoices& ray, std::uint32_t before, std::uint32_t n) {
+    ColumnRow row = ray.row;
+    row.rise += n > before ? -ray.end->last_spacing : ray_before.end->last_spacing;
     const double tangent = tangent_of(row), square = tangent * tangent;
     return square * square;
 }
@@ -95,15 +81,15 @@ struct Step {
 
 /// Returns the steps to number n of ray k: from the same number, the one below and the one above, or those nearest to them.
 std::array<Step, 3> steps_to(std::span<const RayChoices> rays, std::size_t k, std::uint32_t n) {
-    const LayerRange& range_before = rays[k - 1].range;
-    const double off = double(n) - double(rays[k].wanted);
+    const LayerRange& range_before = rays[k - 1].end->layers;
+    const double off = double(n) - double(rays[k].end->wanted);
     const double own = cost_of_distance * off * off + cost_of_layer * n;
     std::array<Step, 3> steps;
     const std::array<std::uint32_t, 3> numbers{n, n - std::min(n, 1u), n + 1};
     for (std::size_t s = 0; s < steps.size(); ++s) {
         const std::uint32_t before = std::clamp(numbers[s], range_before.least, range_before.most);
         const double change = std::abs(double(n) - double(before));
-        steps[s] = {before, own + (change > 0 ? cost_of_change(rays, k, before, n) * change * change : 0)};
+        steps[s] = {before, own + (change > 0 ? cost_of_change(rays[k - 1], rays[k], before, n) * change * change : 0)};
     }
     return steps;
 }
@@ -114,7 +100,7 @@ public:
     /// rays: the first one stands at the end again.
     explicit NumberSearch(std::span<const RayChoices> rays) : rays_(rays), steps_(rays.size()), ways_(rays.size()) {
         for (std::size_t k = 0; k < rays.size(); ++k) {
-            const LayerRange& range = rays[k].range;
+            const LayerRange& range = rays[k].end->layers;
             ways_[k].resize(range.most - range.least + std::size_t{1});
             for (std::uint32_t n = range.least; k > 0 && n <= range.most; ++n)
                 steps_[k].push_back(steps_to(rays, k, n));
@@ -125,7 +111,7 @@ public:
     std::vector<std::uint32_t> run() && {
         double least = HUGE_VAL;
         std::vector<std::uint32_t> best;
-        for (std::uint32_t held = rays_[0].range.least; held <= rays_[0].range.most; ++held) {
+        for (std::uint32_t held = rays_[0].end->layers.least; held <= rays_[0].end->layers.most; ++held) {
             const double cost = cost_from(held);
             if (!best.empty() && !(cost < least)) continue;
             least = cost;
@@ -148,24 +134,24 @@ private:
     /// leads cost infinitely much.
     double cost_from(std::uint32_t held) {
         for (Way& way : ways_[0]) way = {HUGE_VAL, held};
-        ways_[0][held - rays_[0].range.least].cost = 0;
+        ways_[0][held - rays_[0].end->layers.least].cost = 0;
         for (std::size_t k = 1; k < rays_.size(); ++k)
             for (std::size_t n = 0; n < ways_[k].size(); ++n) {
                 Way& way = ways_[k][n];
                 way = {HUGE_VAL, steps_[k][n][0].before};
                 for (const Step& step : steps_[k][n]) {
-                    const double cost = ways_[k - 1][step.before - rays_[k - 1].range.least].cost + step.cost;
+                    const double cost = ways_[k - 1][step.before - rays_[k - 1].end->layers.least].cost + step.cost;
                     if (cost < way.cost) way = {cost, step.before};
                 }
             }
-        return ways_.back()[held - rays_[0].range.least].cost;
+        return ways_.back()[held - rays_[0].end->layers.least].cost;
     }
 
     /// Returns the numbers on the way to this number of the last ray.
     std::vector<std::uint32_t> numbers_to(std::uint32_t held) const {
         std::vector<std::uint32_t> numbers(rays_.size(), held);
         for (std::size_t k = rays_.size() - 1; k > 0; --k)
-            numbers[k - 1] = ways_[k][numbers[k] - rays_[k].range.least].before;
+            numbers[k - 1] = ways_[k][numbers[k] - rays_[k].end->layers.least].before;
         return numbers;
     }
 };
@@ -183,11 +169,11 @@ std::vector<std::uint32_t> cheapest_numbers(const RaySet& set, std::span<const C
         std::vector<RayChoices> rays;
         rays.reserve(n + 1);
         for (std::size_t i = begin, before = begin + n - 1; i < begin + n; before = i++)
-            rays.push_back({ends[i].layers, ends[i].wanted, &ends[i],
-                            row_between(set.lines[before], ends[before].height, set.lines[i], ends[i].height)});
+            rays.push_back(
+                {&ends[i], row_between(set.lines[before], ends[before].height, set.lines[i], ends[i].height)});
         // The sequence closes at a ray with few numbers.
         const auto first = std::min_element(rays.begin(), rays.end(), [](const RayChoices& a, const RayChoices& b) {
-            return a.range.most - a.range.least < b.range.most - b.range.least;
+            return a.end->layers.most - a.end->layers.least < b.end->layers.most - b.end->layers.least;
         });
         const auto offset = static_cast<std::size_t>(first - rays.begin());
         std::rotate(rays.begin(), first, rays.end());

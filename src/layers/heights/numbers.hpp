@@ -15,9 +15,7 @@ struct ColumnEnd {
     double height;            ///< of the front, along the ray
     double last_spacing;      ///< height of the last layer with the number that is wanted
     std::uint32_t wanted;     ///< number of layers
-    LayerRange layers;        ///< numbers of layers with which a stretch can keep the front where it is
-    double spacing_of_least;  ///< height of the last layer with the least number
-    double spacing_of_most;   ///< height of the last layer with the largest number
+    LayerRange layers;     ///< numbers of layers with which a stretch can keep the front where it is
 };
 
 /// Returns the cheapest numbers of layers within the ranges of these ends, one per ray.

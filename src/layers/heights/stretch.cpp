@@ -35,50 +35,35 @@ namespace lamina::layers {
 
 namespace {
 
-/// Returns the height of the topmost of n layers if they are stretched.
-double stretched_height(std::span<const double> heights, std::uint32_t n, double factor) {
+/// The height of the topmost of n layers that are stretched, and how it changes with the factor.
+struct StretchedHeight {
+    double height, slope;
+};
+
+StretchedHeight stretched_height(std::span<const double> heights, std::uint32_t n, double factor) {
     const std::uint32_t kept = std::min(last_unstretched(n), n);
-    double height = heights[kept], product = 1;
+    StretchedHeight top{heights[kept], 0};
+    double product = 1;
     for (std::uint32_t k = kept; k < n; ++k) {
+        const double thickness = heights[k + 1] - heights[k];
+        top.slope += (k - kept + 1) * product * thickness;
         product *= factor;
-        height += product * (heights[k + 1] - heights[k]);
+        top.height += product * thickness;
     }
-    return height;
+    return top;
 }
 
-/// Returns the factor with which layer n ends at the height, to some 1e-15, by Newton's method from a factor that is too
-/// large: the height is a polynomial of the factor with positive coefficients, so no step goes too far. Returns NaN
-/// where eight steps are not enough.
-double factor_near(double height, std::span<const double> heights, std::uint32_t n, double factor) {
-    const std::uint32_t kept = std::min(last_unstretched(n), n);
-    for (int step = 0; step < 8; ++step) {
-        double reached = heights[kept], slope = 0, product = 1;
-        for (std::uint32_t k = kept; k < n; ++k) {
-            const double thickness = heights[k + 1] - heights[k];
-            slope += (k - kept + 1) * product * thickness;
-            product *= factor;
-            reached += product * thickness;
-        }
-        const double change = (reached - height) / slope;
+/// Returns the factor, from 1 / max_stretch to max_stretch, with which layer n ends next to the height, by Newton's method from a
+/// factor that is too large: the height is a polynomial of the factor with positive coefficients, so no step goes too far.
+double factor_to_height(double height, std::span<const double> heights, std::uint32_t n) {
+    if (stretched_height(heights, n, 1 / max_stretch).height >= height) return 1 / max_stretch;
+    double factor = max_stretch;
+    for (;;) {
+        const StretchedHeight top = stretched_height(heights, n, factor);
+        const double change = (top.height - height) / top.slope;
+        if (!(change > 1e-14)) return factor;
         factor -= change;
-        if (std::abs(change) < 1e-12) return factor;
     }
-    return NAN;
-}
-
-/// Returns the largest factor up to max_stretch with which layer n ends at or below the height; 1 / max_stretch if there
-/// is none.
-double max_factor_below(double height, std::span<const double> heights, std::uint32_t n) {
-    double low = 1 / max_stretch, high = max_stretch;
-    if (stretched_height(heights, n, high) <= height) return high;
-    const double near = factor_near(height, heights, n, high);
-    for (int halving = 0; halving < 48; ++halving) {
-        const double middle = 0.5 * (low + high);
-        const bool is_clear = std::abs(middle - near) > 1e-13;  // a hundred times what rounding does to either
-        const bool fits = is_clear ? middle < near : stretched_height(heights, n, middle) <= height;
-        (fits ? low : high) = middle;
-    }
-    return low;
 }
 
 }  // namespace
@@ -95,24 +80,19 @@ void stretch_heights(const Stretch& stretch, std::span<double> heights) {
     }
 }
 
-StretchedLayers layers_up_to(double height, std::span<const double> heights) {
-    // Either the layers that fit as they are grow towards the height, or they shrink until one more fits.
+std::uint32_t layers_up_to(double height, std::span<const double> heights) {
+    // Either the layers that fit as they are grow towards the height, or one more fits if they shrink by less.
     const auto first_above = std::upper_bound(heights.begin(), heights.end(), height);
     const auto fitting = static_cast<std::uint32_t>(first_above - heights.begin()) - 1;
-    if (fitting == 0 || heights[fitting] == height) return {fitting, {}};
-    const double grown = max_factor_below(height, heights, fitting);
-    const StretchedLayers as_many{fitting, {grown, 1, last_unstretched(fitting)}};
-    if (fitting + std::size_t{1} == heights.size()) return as_many;
-    // One more layer fits if it shrinks by the largest factor, and is taken if it shrinks by less than the others grow.
-    const double least = grown == max_stretch ? 1 / max_stretch : 1 / grown;
-    if (stretched_height(heights, fitting + 1, least) > height) return as_many;
-    return {fitting + 1, {max_factor_below(height, heights, fitting + 1), 1, last_unstretched(fitting + 1)}};
+    if (fitting == 0 || heights[fitting] == height || fitting + std::size_t{1} == heights.size()) return fitting;
+    const double grown = factor_to_height(height, heights, fitting);
+    return stretched_height(heights, fitting + 1, 1 / grown).height > height ? fitting : fitting + 1;
 }
 
 LayerRange layer_range(double height, std::span<const double> heights, std::uint32_t wanted) {
     const auto ends_there = [&](std::uint32_t n) {
-        return stretched_height(heights, n, 1 / max_stretch) <= height &&
-               stretched_height(heights, n, max_stretch) >= height;
+        return stretched_height(heights, n, 1 / max_stretch).height <= height &&
+               stretched_height(heights, n, max_stretch).height >= height;
     };
     LayerRange range{wanted, wanted};
     while (range.least > 1 && ends_there(range.least - 1)) --range.least;
@@ -122,7 +102,7 @@ LayerRange layer_range(double height, std::span<const double> heights, std::uint
 
 Stretch stretch_of_layers(double height, std::span<const double> heights, std::uint32_t n) {
     if (n < 2 || heights[n] == height) return {};
-    return {max_factor_below(height, heights, n), 1, last_unstretched(n)};
+    return {factor_to_height(height, heights, n), 1, last_unstretched(n)};
 }
 
 double stretched_last_spacing(double height, std::span<const double> heights, std::uint32_t n) {

@@ -16,16 +16,9 @@ inline std::uint32_t last_unstretched(std::uint32_t layers) { return std::max(la
 /// Stretches a column. heights[0] = 0 is the wall.
 void stretch_heights(const Stretch& stretch, std::span<double> heights);
 
-/// A number of layers, and the stretch with which they end at a given height.
-struct StretchedLayers {
-    std::uint32_t layers;
-    Stretch stretch;
-};
-
-/// Returns the layers that end at `height` with the stretch that is nearest to 1, or, where that would take more than
-/// max_stretch, end next to it below. The lower half of the layers is not stretched. heights: those of unstretched
+/// Returns the number of layers that end at `height` with the stretch that is nearest to 1. heights: those of unstretched
 /// layers, heights[0] = 0 and heights[1] <= height.
-StretchedLayers layers_up_to(double height, std::span<const double> heights);
+std::uint32_t layers_up_to(double height, std::span<const double> heights);
 
 /// The numbers of layers with which a column can end at a height.
 struct LayerRange {
@@ -36,8 +29,8 @@ struct LayerRange {
 /// max_stretch. heights: those of unstretched layers.
 LayerRange layer_range(double height, std::span<const double> heights, std::uint32_t wanted);
 
-/// Returns the largest stretch, by up to max_stretch, with which n layers end at `height` or below; by 1 / max_stretch if
-/// there is none, and none for one layer, whose height no stretch changes.
+/// Returns the stretch, by up to max_stretch, with which n layers end at `height` but for rounding, or next to it; none for one
+/// layer, whose height no stretch changes.
 Stretch stretch_of_layers(double height, std::span<const double> heights, std::uint32_t n);
 
 /// Returns the height of the topmost of n layers with that stretch.
