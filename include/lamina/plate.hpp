@@ -1,5 +1,9 @@
 // The first layer of a mesh by hand: what a flat plate needs at a Reynolds number, before there is a section.
 //
+// Guarantees:
+//  1. plate_layer() and plate_layer_of_height() are inverse to each other.
+// Limits:
+//  1. A section has lower first layers at its suction peak, and higher ones where its flow is slow: solve_flow() knows both.
 // Example:
 //     const PlateLayer layer = plate_layer({.y_plus = 1}, 6e6);
 //     assert(layer.first_height > 4.4e-6 && layer.first_height < 4.5e-6);  // chords

@@ -21,11 +21,11 @@ namespace lamina::app {
 namespace {
 
 /// The options that most meshes need, in tasks: those that the short help shows.
-constexpr std::string_view short_help[] = {
-    "input",          "output",    "preset",       "format", "report",         "html",      "surface",
-    "surface-points", "names",     "transform",    "alpha",  "chord",          "mach",      "reynolds",
-    "y-plus",         "growth",    "first-height", "layers", "layer-topology", "no-layers", "max-ray-angle",
-    "far-field",      "gradation", "wake",         "refine", "threads"};
+constexpr std::string_view short_help[] = {"input",     "output",       "preset",         "format",         "report",
+                                           "html",      "surface",      "surface-points", "names",          "transform",
+                                           "alpha",     "chord",        "mach",           "reynolds",       "y-plus",
+                                           "growth",    "first-height", "layers",         "layer-topology", "no-layers",
+                                           "far-field", "gradation",    "wake",           "refine",         "threads"};
 
 CLI::Option* add_option(CLI::App& command, const Option<MeshCase>& option) {
     const std::string help = help_text(option);
