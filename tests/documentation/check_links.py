@@ -4,7 +4,7 @@
 usage: check_links.py SOURCE [SITE]
 
 Without SITE: each relative link and picture of each Markdown file of SOURCE leads to a file, and to a heading where it
-names one; each page of docs/ is in the menu, which is docs/README.md; each picture of docs/images is shown somewhere.
+names one; each source that a page names exists; each page of docs/ is in the menu, which is docs/README.md; each picture of docs/images is shown somewhere.
 With SITE: each link and picture of the HTML pages in that folder leads to a file there, and none is loaded from
 elsewhere, so that the site works without a network. The exit status is 1 where something is wrong.
 """
@@ -41,6 +41,11 @@ def links_of(text):
     return [target for target in targets if not re.match(r"[a-z]+:", target)]
 
 
+def sources_of(text):
+    """Returns the files and folders of code that a page names: `src/...`, but for patterns and placeholders."""
+    return re.findall(r"`((?:src|include|tests|tools|cmake|python|bench)/[a-z0-9_./]+)`", text)
+
+
 def check_pages(source):
     problems, linked = [], {}
     pages = pages_of(source)
@@ -53,6 +58,8 @@ def check_pages(source):
                 problems.append(f"{page}: {target}: no such file")
             elif anchor and file.suffix == ".md" and anchor not in anchors_of(file.read_text()):
                 problems.append(f"{page}: {target}: no such heading")
+        problems += [f"{page}: {name}: no such file" for name in sources_of(page.read_text())
+                     if not (source / name).exists()]
     docs = source / "docs"
     menu = linked.get((docs / "README.md").resolve(), set())
     shown = set().union(*linked.values())
