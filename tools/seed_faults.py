@@ -2,10 +2,13 @@
 """Seeds faults into src/, one at a time, and tells which of the tests beside them notice.
 
 usage: tools/seed_faults.py BUILD [NAME...]
+       tools/seed_faults.py --check
 
 BUILD is a folder that `./dev test` has built (build/release). tools/seeded_faults.toml lists the faults: each changes one
 line of a file. Only the object that holds the file is compiled anew (at -O1), and the programs that the fault names are
 linked with it, so that a fault costs some seconds. Nothing of the build and of the sources is changed.
+
+With --check it looks only whether each line to change is still there, and once.
 
 Prints a row of a table for each fault: what noticed it, or `nothing`. The exit code is 1 if a fault went unnoticed that
 the list does not call harmless.
@@ -25,7 +28,8 @@ SECONDS = 300  # of a program; a fault that makes it run forever is noticed, too
 
 def seeded(fault):
     """Returns the text of the file with the fault in it."""
-    text = (SOURCE / fault["file"]).read_text()
+    file = SOURCE / fault["file"]
+    text = file.read_text() if file.exists() else ""
     if text.count(fault["old"]) != 1:
         sys.exit(f"{fault['name']}: the line to change is not once in {fault['file']}")
     return text.replace(fault["old"], fault["new"])
@@ -89,8 +93,12 @@ def noticed_by(program, choice, folder):
 
 
 def main():
-    build, names = pathlib.Path(sys.argv[1]).resolve(), set(sys.argv[2:])
     faults = tomllib.loads((SOURCE / "tools/seeded_faults.toml").read_text())["fault"]
+    if sys.argv[1] == "--check":
+        for fault in faults:
+            seeded(fault)
+        return
+    build, names = pathlib.Path(sys.argv[1]).resolve(), set(sys.argv[2:])
     unnoticed, failed = 0, False
     print("| fault | file | noticed by |\n|---|---|---|")
     for fault in faults:
