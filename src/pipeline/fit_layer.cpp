@@ -84,13 +84,16 @@ FittedLayer grow_within(const CaseOptions& options, Geometry geometry, const Ref
         decoupling::place_far_field(bounding_box(geometry), conditions.chord, options.far_field);
     std::vector<OuterWallFacts> outer_walls =
         outer_wall_facts(far_field, options.far_field, geometry, options.layer, conditions, growth);
+    LineGraph lines = arrange_lines(options.lines, far_field, geometry);
     std::vector<layers::OuterWall> divided;
     if (!outer_walls.empty())
-        divided = divide_outer_walls(
-            outer_walls, far_field, size_of_outer_walls(options, geometry, conditions, growth, far_field.box(), finer));
-    LineGraph lines = arrange_lines(options.lines, far_field, geometry);
+        divided = divide_outer_walls(outer_walls, far_field,
+                                     size_of_outer_walls(options, geometry, conditions, growth, far_field.box(), finer),
+                                     lines);
     layers::Obstacles obstacles;
-    if (!lines.pieces.empty()) obstacles = obstacles_of(lines, growth.first_height);
+    if (!lines.pieces.empty())
+        obstacles =
+            obstacles_of(lines, growth.first_height, geometry::is_cut(geometry) ? geometry.symmetry : std::nullopt);
     layers::Rays rays = layers::grow_rays(geometry, options.layer, growth, divided, obstacles);
     if (options.layer.enabled && !geometry.pitch)
         require_room_for_layers(geometry, layers::fronts(rays), far_field, options.layer, growth);

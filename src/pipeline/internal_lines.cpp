@@ -137,8 +137,20 @@ Point attached(Point end, const Geometry& geometry, std::span<const WallEdge> wa
     return result;
 }
 
-/// Puts vertices into the outline of an element: those with the keys of edges, in the order along them.
-void insert_vertices(const std::map<std::size_t, std::vector<Point>>& after, Element& element) {
+/// Vertices that a wall gets, by the number of the edge on which they stand, in their order along it.
+using VerticesOnEdges = std::map<std::size_t, std::vector<Point>>;
+
+/// Adds the images of vertices on the upper part of a body that a line of symmetry cuts.
+void add_images(const Element& element, double y, VerticesOnEdges& after) {
+    const VerticesOnEdges above = after;
+    for (const auto& [edge, points] : above) {
+        std::vector<Point>& below = after[element.points.size() - 1 - edge];
+        for (std::size_t i = points.size(); i-- > 0;) below.push_back(geometry::image_of(points[i], y));
+    }
+}
+
+/// Puts vertices into the outline of an element.
+void insert_vertices(const VerticesOnEdges& after, Element& element) {
     std::vector<Point> points;
     std::vector<std::size_t> lines, place;
     for (std::size_t i = 0; i < element.points.size(); ++i) {
@@ -161,16 +173,67 @@ void insert_vertices(const std::map<std::size_t, std::vector<Point>>& after, Ele
     element.lines = std::move(lines);
 }
 
-/// Bodies and lines in one triangulation.
+/// The strip between the walls of the domain, or above its line of symmetry.
+struct Strip {
+    Box domain;
+    bool ends_below = false, ends_above = false;  ///< else the far field is there
+
+    bool contains(Point p) const {
+        return (!ends_below || p.y > domain.lower.y) && (!ends_above || p.y < domain.upper.y);
+    }
+    bool is_on_border(Point p) const {
+        return (ends_below && p.y == domain.lower.y) || (ends_above && p.y == domain.upper.y);
+    }
+    /// Returns y on the border of the strip that is no further away than `reach`, else y itself.
+    double snapped(double y, double reach) const {
+        if (ends_below && std::abs(y - domain.lower.y) <= reach) return domain.lower.y;
+        return ends_above && std::abs(y - domain.upper.y) <= reach ? domain.upper.y : y;
+    }
+};
+
+Strip strip_of(const decoupling::FarField& far_field) {
+    return {far_field.box(), std::isfinite(far_field.floor), std::isfinite(far_field.ceiling)};
+}
+
+/// Bodies, borders of the domain on which lines may end, and lines in one triangulation.
 struct Arrangement {
     std::vector<Point> points;
     std::size_t wall_points = 0;      ///< the first so many are those of the bodies
     std::vector<WallEdge> walls;      ///< the first segments
+    std::size_t borders = 0;          ///< number of the next ones
     std::vector<std::uint32_t> line;  ///< of the other segments
     ConstrainedTriangulation cells;
+
+    bool is_of_line(std::size_t segment) const { return cells.parents[segment] >= walls.size() + borders; }
+    std::uint32_t line_of(std::size_t segment) const { return line[cells.parents[segment] - walls.size() - borders]; }
 };
 
-Arrangement arrange(std::span<const InternalLine> lines, const Geometry& geometry) {
+/// Adds the borders of the domain on which lines may end.
+void add_borders(const Strip& strip, std::vector<Segment>& segments, Arrangement& result) {
+    const auto [lower_left, lower_right, upper_right, upper_left] = strip.domain.corners();
+    const auto add = [&](Point a, Point b) {
+        segments.push_back({VertexId(result.points.size()), VertexId(result.points.size() + 1)});
+        result.points.insert(result.points.end(), {a, b});
+        ++result.borders;
+    };
+    if (strip.ends_below) add(lower_left, lower_right);
+    if (strip.ends_above) add(upper_left, upper_right);
+}
+
+/// Puts the vertices on borders, which may have been rounded, there exactly.
+void straighten_borders(const Strip& strip, Arrangement& result) {
+    for (std::size_t i = 0; i < result.cells.segments.size(); ++i) {
+        if (result.cells.parents[i] < result.walls.size() || result.is_of_line(i)) continue;
+        for (const VertexId v : {result.cells.segments[i].a, result.cells.segments[i].b}) {
+            Point& p = result.points[v.index()];
+            const bool is_below = strip.ends_below && result.cells.parents[i] == result.walls.size();
+            p.y = is_below ? strip.domain.lower.y : strip.domain.upper.y;
+        }
+    }
+}
+
+Arrangement arrange(std::span<const InternalLine> lines, const Strip& strip, const Geometry& geometry) {
+    constexpr double reach = 1e-3;  // of the end's edge: coordinates typed with few digits
     Arrangement result;
     result.walls = wall_edges(geometry);
     std::vector<Segment> segments;
@@ -179,10 +242,15 @@ Arrangement arrange(std::span<const InternalLine> lines, const Geometry& geometr
         result.points.push_back(wall.a);
     }
     result.wall_points = result.points.size();
+    add_borders(strip, segments, result);
     for (std::uint32_t k = 0; k < lines.size(); ++k) {
         std::vector<Point> points = lines[k].points;
-        if (points.front() != points.back())
+        if (points.front() != points.back()) {
+            const std::array before{distance(points[0], points[1]), distance(points.end()[-1], points.end()[-2])};
+            points.front().y = strip.snapped(points.front().y, reach * before[0]);
+            points.back().y = strip.snapped(points.back().y, reach * before[1]);
             for (Point* end : {&points.front(), &points.back()}) *end = attached(*end, geometry, result.walls);
+        }
         result.points.insert(result.points.end(), points.begin(), points.end());
         for (std::size_t i = result.points.size() - points.size(); i + 1 < result.points.size(); ++i) {
             segments.push_back({VertexId(i), VertexId(i + 1)});
@@ -191,11 +259,12 @@ Arrangement arrange(std::span<const InternalLine> lines, const Geometry& geometr
     }
     result.cells = triangulate(result.points, segments, {.crossings = Crossings::insert, .merge_distance = 0.0});
     result.points.insert(result.points.end(), result.cells.steiner_points.begin(), result.cells.steiner_points.end());
+    straighten_borders(strip, result);
     return result;
 }
 
-/// Vertices that walls get: per element, by the number of the edge.
-using InsertedVertices = std::vector<std::map<std::size_t, std::vector<Point>>>;
+/// Vertices that walls get, per element.
+using InsertedVertices = std::vector<VerticesOnEdges>;
 
 /// Returns the vertices of lines on walls that become vertices of these, and replaces others in `moved` by the vertex of
 /// the wall that they are near to.
@@ -235,14 +304,17 @@ InsertedVertices settle_on_walls(const Arrangement& arrangement, std::span<const
 
 /// Throws OptionError where two-sided lines enclose a region, by themselves or with bodies.
 void require_connected_domain(const LineGraph& graph, std::span<const InternalLine> lines, const Geometry& geometry) {
+    // Bodies that a line of symmetry cuts are parts of the domain's border, which comes behind the bodies.
+    const std::size_t bodies = geometry.elements.size() + 1;
     std::map<Point, std::size_t, core::LexicographicOrder> body_at;
     for (std::size_t e = 0; e < geometry.elements.size(); ++e)
-        for (const Point p : geometry.elements[e].points) body_at.emplace(p, e);
-    const std::size_t bodies = geometry.elements.size();
+        for (const Point p : geometry.elements[e].points)
+            body_at.emplace(p, geometry.elements[e].is_mirrored ? bodies - 1 : e);
     core::DisjointSets connected(bodies + graph.points.size());
     const auto node = [&](VertexId v) {
         const auto body = body_at.find(graph.points[v.index()]);
-        return static_cast<std::uint32_t>(body != body_at.end() ? body->second : bodies + v.index());
+        if (body != body_at.end()) return static_cast<std::uint32_t>(body->second);
+        return static_cast<std::uint32_t>(graph.on_border[v.index()] ? bodies - 1 : bodies + v.index());
     };
     for (std::size_t i = 0; i < graph.pieces.size(); ++i) {
         const InternalLine& line = lines[graph.line[i]];
@@ -267,33 +339,38 @@ void require_clear_of_sheets(const LineGraph& graph, std::span<const InternalLin
 }
 
 /// Throws OptionError where lines have no place in the domain.
-void require_place_for_lines(std::span<const InternalLine> lines, const Box& domain, const Geometry& geometry) {
-    if (geometry::is_cut(geometry))
-        throw OptionError(option_name, "lines cannot be given beside bodies that a line of symmetry cuts");
-    if (geometry.pitch) throw OptionError(option_name, "lines cannot be given in a row of blades (--periodic)");
+void require_place_for_lines(std::span<const InternalLine> lines, const Strip& strip, const Geometry& geometry) {
+    if (geometry.pitch)
+        throw OptionError(option_name,
+                          "lines cannot be given in a row of blades (--periodic): --refine line:... makes "
+                          "the mesh fine along them");
+    const Box& domain = strip.domain;
     for (const InternalLine& line : lines)
         for (const Point p : line.points)
-            if (!(domain.lower.x < p.x && p.x < domain.upper.x && domain.lower.y < p.y && p.y < domain.upper.y))
-                refuse(line, fmt::format("the point ({}, {}) is not inside the far field", p.x, p.y));
+            if (!(domain.lower.x < p.x && p.x < domain.upper.x && (strip.ends_below || domain.lower.y < p.y) &&
+                  (strip.ends_above || p.y < domain.upper.y)))
+                refuse(line, fmt::format("the point ({}, {}) is not inside the far field, from ({:g}, {:g}) to ({:g}, "
+                                         "{:g}): end the line there, or make --far-field larger",
+                                         p.x, p.y, domain.lower.x, domain.lower.y, domain.upper.x, domain.upper.y));
 }
 
-/// Returns the pieces of lines outside bodies, as numbers of segments.
-std::vector<std::size_t> pieces_in_flow(const Arrangement& arrangement, const Geometry& geometry) {
+/// Returns the pieces of lines in the strip outside bodies, as numbers of segments.
+std::vector<std::size_t> pieces_in_flow(const Arrangement& arrangement, const Strip& strip, const Geometry& geometry) {
     std::vector<std::size_t> pieces;
     const ConstrainedTriangulation& cells = arrangement.cells;
     for (std::size_t i = 0; i < cells.segments.size(); ++i) {
+        if (!arrangement.is_of_line(i)) continue;
         const auto [a, b] = cells.segments[i];
-        if (cells.parents[i] < arrangement.walls.size() ||
-            is_inside_body(geometry, midpoint(arrangement.points[a.index()], arrangement.points[b.index()])))
-            continue;
-        pieces.push_back(i);
+        const Point middle = midpoint(arrangement.points[a.index()], arrangement.points[b.index()]);
+        if (strip.contains(middle) && !is_inside_body(geometry, middle)) pieces.push_back(i);
     }
     return pieces;
 }
 
 /// Numbers the vertices of pieces, `moved` to where they have settled, in the order in which pieces have them.
 LineGraph number_pieces(const Arrangement& arrangement, std::span<const std::size_t> pieces,
-                        std::span<const std::size_t> moved, const std::set<Point, core::LexicographicOrder>& on_wall) {
+                        std::span<const std::size_t> moved, const std::set<Point, core::LexicographicOrder>& on_wall,
+                        const Strip& strip) {
     LineGraph graph;
     std::map<std::size_t, VertexId> number;
     const auto vertex = [&](VertexId of_arrangement) {
@@ -302,6 +379,7 @@ LineGraph number_pieces(const Arrangement& arrangement, std::span<const std::siz
         if (is_new) {
             graph.points.push_back(arrangement.points[v]);
             graph.on_wall.push_back(on_wall.contains(arrangement.points[v]) ? 1 : 0);
+            graph.on_border.push_back(!graph.on_wall.back() && strip.is_on_border(arrangement.points[v]) ? 1 : 0);
         }
         return at->second;
     };
@@ -311,7 +389,7 @@ LineGraph number_pieces(const Arrangement& arrangement, std::span<const std::siz
         const VertexId a = vertex(piece.a), b = vertex(piece.b);
         if (a == b || !known.insert(std::minmax(a, b)).second) continue;
         graph.pieces.push_back({a, b});
-        graph.line.push_back(arrangement.line[arrangement.cells.parents[i] - arrangement.walls.size()]);
+        graph.line.push_back(arrangement.line_of(i));
     }
     return graph;
 }
@@ -321,22 +399,25 @@ LineGraph number_pieces(const Arrangement& arrangement, std::span<const std::siz
 LineGraph arrange_lines(std::span<const InternalLine> lines, const decoupling::FarField& far_field,
                         Geometry& geometry) {
     if (lines.empty()) return {};
-    require_place_for_lines(lines, far_field.box(), geometry);
-    const Arrangement arrangement = arrange(lines, geometry);
-    const std::vector<std::size_t> pieces = pieces_in_flow(arrangement, geometry);
+    const Strip strip = strip_of(far_field);
+    require_place_for_lines(lines, strip, geometry);
+    const Arrangement arrangement = arrange(lines, strip, geometry);
+    const std::vector<std::size_t> pieces = pieces_in_flow(arrangement, strip, geometry);
     std::vector<char> used(arrangement.points.size());
     for (const std::size_t i : pieces)
         for (const VertexId v : {arrangement.cells.segments[i].a, arrangement.cells.segments[i].b}) used[v.index()] = 1;
     std::vector<std::size_t> moved(arrangement.points.size());
     std::iota(moved.begin(), moved.end(), std::size_t{0});
-    const InsertedVertices inserted = settle_on_walls(arrangement, used, geometry.elements.size(), moved);
+    InsertedVertices inserted = settle_on_walls(arrangement, used, geometry.elements.size(), moved);
     std::set<Point, core::LexicographicOrder> on_wall(
         arrangement.points.begin(), arrangement.points.begin() + static_cast<std::ptrdiff_t>(arrangement.wall_points));
     for (std::size_t e = 0; e < geometry.elements.size(); ++e) {
+        if (inserted[e].empty()) continue;
         for (const auto& [edge, points] : inserted[e]) on_wall.insert(points.begin(), points.end());
-        if (!inserted[e].empty()) insert_vertices(inserted[e], geometry.elements[e]);
+        if (geometry.elements[e].is_mirrored) add_images(geometry.elements[e], *geometry.symmetry, inserted[e]);
+        insert_vertices(inserted[e], geometry.elements[e]);
     }
-    LineGraph graph = number_pieces(arrangement, pieces, moved, on_wall);
+    LineGraph graph = number_pieces(arrangement, pieces, moved, on_wall, strip);
     require_connected_domain(graph, lines, geometry);
     require_clear_of_sheets(graph, lines, geometry);
     return graph;
@@ -371,18 +452,49 @@ std::vector<SizeSource> sizes_along(std::span<const InternalLine> lines) {
     return sources;
 }
 
-layers::Obstacles obstacles_of(const LineGraph& graph, double first_height) {
+namespace {
+
+/// Adds a line and its image in a line of symmetry as obstacles, short of their ends by `gap`. Rays in the line of symmetry
+/// must not pass between both where the line ends there:
+///
+///        /       the line goes on beyond y by a gap,
+///     --/------  y
+///      \'        and its image ends two gaps below
+///
+void add_with_image(const LineGraph& graph, const Segment& piece, Point gap, double y, layers::Obstacles& obstacles) {
+    const Point a = graph.points[piece.a.index()], b = graph.points[piece.b.index()];
+    const auto ends_on_line = [&](VertexId v) { return graph.on_border[v.index()] && graph.points[v.index()].y == y; };
+    const auto gaps = [&](VertexId v, double on_line) { return ends_on_line(v) ? on_line : 1.0; };
+    const auto image = [&](Point p) { return geometry::image_of(p, y); };
+    obstacles.outlines.push_back({a + gaps(piece.a, -1) * gap, b - gaps(piece.b, -1) * gap});
+    obstacles.outlines.push_back({image(b - gaps(piece.b, 2) * gap), image(a + gaps(piece.a, 2) * gap)});
+}
+
+}  // namespace
+
+layers::Obstacles obstacles_of(const LineGraph& graph, double first_height, std::optional<double> symmetry) {
     constexpr double gap_share = 0.1;
     layers::Obstacles obstacles;
     for (std::size_t v = 0; v < graph.points.size(); ++v)
-        if (graph.on_wall[v]) obstacles.bare.push_back(graph.points[v]);
+        if (graph.on_wall[v] || graph.on_border[v]) obstacles.bare.push_back(graph.points[v]);
     for (const Segment& piece : graph.pieces) {
         const Point a = graph.points[piece.a.index()], b = graph.points[piece.b.index()];
         const double gap = std::min(gap_share * first_height, 0.25 * distance(a, b));
         const Point along = (gap / distance(a, b)) * (b - a);
-        obstacles.outlines.push_back({a + along, b - along});
+        if (symmetry)
+            add_with_image(graph, piece, along, *symmetry, obstacles);
+        else
+            obstacles.outlines.push_back({a + along, b - along});
     }
     return obstacles;
+}
+
+std::vector<double> feet_on_border(const LineGraph& graph, double y) {
+    std::vector<double> feet;
+    for (std::size_t v = 0; v < graph.points.size(); ++v)
+        if (graph.on_border[v] && graph.points[v].y == y) feet.push_back(graph.points[v].x);
+    std::sort(feet.begin(), feet.end());
+    return feet;
 }
 
 namespace {
@@ -458,120 +570,6 @@ void add_line_markers(const LineGraph& graph, std::span<const InternalLine> line
                 marker.edges.insert(marker.edges.end(), inner_edges[i].begin(), inner_edges[i].end());
         if (!marker.edges.empty()) markers.push_back(std::move(marker));
     }
-}
-
-namespace {
-
-/// The cells at the vertices of two-sided lines, and the copy of the vertex that each of them has.
-class VertexCopies {
-public:
-    VertexCopies(std::span<const Segment> lines, Mesh& mesh) : mesh_(mesh) {
-        for (const Segment& edge : lines) {
-            cut_.insert(std::minmax(edge.a, edge.b));
-            corners_.try_emplace(edge.a);
-            corners_.try_emplace(edge.b);
-        }
-        for (Triangle& triangle : mesh.triangles) collect(triangle.v, 3);
-        for (Quad& quad : mesh.quads) collect(quad.v, 4);
-        for (auto& [v, corners] : corners_) number(v, corners);
-    }
-
-    /// Gives the cells their copies.
-    void apply() {
-        for (const auto& [v, corners] : corners_)
-            for (const Corner& corner : corners) *corner.place = corner.copy;
-    }
-    /// Returns a directed edge with the copies that the cell on its left has; the edge itself where there is no such cell.
-    Segment on_left(Segment edge) const {
-        Segment result = edge;
-        if (const Corner* a = corner_with(edge.a, edge.b, true)) result.a = a->copy;
-        if (const Corner* b = corner_with(edge.b, edge.a, false)) result.b = b->copy;
-        return result;
-    }
-
-private:
-    /// The corner of a cell, and the vertices beside it, the next one counter-clockwise first.
-    struct Corner {
-        VertexId* place;
-        VertexId next, previous, copy;
-    };
-
-    void collect(VertexId* v, std::size_t n) {
-        for (std::size_t i = 0; i < n; ++i)
-            if (const auto found = corners_.find(v[i]); found != corners_.end())
-                found->second.push_back({&v[i], v[(i + 1) % n], v[(i + n - 1) % n], v[i]});
-    }
-    /// Numbers the copies of a vertex: one for each fan of cells between edges of lines and of the boundary. The first fan
-    /// keeps the vertex.
-    void number(VertexId v, std::vector<Corner>& corners) {
-        std::vector<char> done(corners.size());
-        bool is_first = true;
-        for (std::size_t first = 0; first < corners.size(); ++first) {
-            if (done[first]) continue;
-            VertexId copy = v;
-            if (!is_first) {
-                copy = VertexId{mesh_.points.size()};
-                mesh_.points.push_back(Point(mesh_.points[v.index()]));
-            }
-            is_first = false;
-            std::vector<std::size_t> fan{first};
-            done[first] = 1;
-            for (std::size_t k = 0; k < fan.size(); ++k) {
-                corners[fan[k]].copy = copy;
-                for (std::size_t i = 0; i < corners.size(); ++i) {
-                    if (done[i]) continue;
-                    const bool after = corners[i].next == corners[fan[k]].previous && !is_cut(v, corners[i].next);
-                    const bool before = corners[i].previous == corners[fan[k]].next && !is_cut(v, corners[i].previous);
-                    if (!after && !before) continue;
-                    done[i] = 1;
-                    fan.push_back(i);
-                }
-            }
-        }
-    }
-    bool is_cut(VertexId a, VertexId b) const { return cut_.contains(std::minmax(a, b)); }
-    /// Returns the corner at v whose next or previous vertex is this one; null where there is none.
-    const Corner* corner_with(VertexId v, VertexId other, bool is_next) const {
-        const auto found = corners_.find(v);
-        if (found == corners_.end()) return nullptr;
-        for (const Corner& corner : found->second)
-            if ((is_next ? corner.next : corner.previous) == other) return &corner;
-        return nullptr;
-    }
-
-    Mesh& mesh_;
-    std::set<std::pair<VertexId, VertexId>> cut_;
-    std::map<VertexId, std::vector<Corner>> corners_;
-};
-
-}  // namespace
-
-void split_two_sided(std::span<const InternalLine> lines, Mesh& mesh, std::vector<Segment>& constraints) {
-    const auto is_two_sided = [&](const Marker& marker) {
-        return marker.kind == MarkerKind::internal &&
-               std::any_of(lines.begin(), lines.end(),
-                           [&](const InternalLine& line) { return line.two_sided && line.name == marker.name; });
-    };
-    std::vector<Segment> cut;
-    for (const Marker& marker : mesh.markers)
-        if (is_two_sided(marker)) cut.insert(cut.end(), marker.edges.begin(), marker.edges.end());
-    VertexCopies copies(cut, mesh);
-    for (Marker& marker : mesh.markers) {
-        std::vector<Segment> edges;
-        const bool both = is_two_sided(marker);
-        for (const Segment& edge : marker.edges) {
-            edges.push_back(copies.on_left(edge));
-            if (both) edges.push_back(copies.on_left({edge.b, edge.a}));
-        }
-        if (both) marker.kind = MarkerKind::wall;
-        marker.edges = std::move(edges);
-    }
-    for (Segment& edge : constraints) {
-        const Segment moved = copies.on_left(edge);
-        edge = {std::min(moved.a, moved.b), std::max(moved.a, moved.b)};
-    }
-    std::sort(constraints.begin(), constraints.end());
-    copies.apply();
 }
 
 }  // namespace lamina::pipeline

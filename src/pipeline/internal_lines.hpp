@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,14 +27,16 @@ void validate_lines(const CaseOptions& options);
 /// The lines outside the bodies, cut where they cross each other.
 struct LineGraph {
     std::vector<Point> points;        ///< vertices, where lines bend, cross, end, or meet walls
-    std::vector<char> on_wall;        ///< per vertex: whether it is one of a wall
+    std::vector<char> on_wall;        ///< per vertex: whether it is one of a wall of a body
+    std::vector<char> on_border;      ///< per vertex: whether it is on a wall of the domain or its line of symmetry
     std::vector<Segment> pieces;      ///< straight, between vertices, in the order of the lines
     std::vector<std::uint32_t> line;  ///< per piece: its line
 };
 
-/// Cuts lines where they cross each other and the bodies, and leaves out what lies inside bodies. A crossing with a wall
-/// becomes a vertex of the wall; one that is nearer to a vertex than three tenths of the edge becomes that vertex. So does
-/// an end of a line that is nearer to a wall than half its edge. Throws OptionError for a line outside the far field.
+/// Cuts lines where they cross each other, the bodies, walls of the domain and its line of symmetry, and leaves out what
+/// lies behind these. A crossing with a wall of a body becomes a vertex of the wall; one that is nearer to a vertex than
+/// three tenths of the edge becomes that vertex. So does an end of a line that is nearer to a wall than half its edge. Bodies
+/// that a line of symmetry cuts stay images. Throws OptionError for a line outside the far field.
 LineGraph arrange_lines(std::span<const InternalLine> lines, const decoupling::FarField& far_field, Geometry& geometry);
 
 /// Returns sizes at the vertices of lines: their distances from other lines that they are no part of.
@@ -43,8 +46,11 @@ std::vector<SizeSource> sizes_between(const LineGraph& graph);
 std::vector<SizeSource> sizes_along(std::span<const InternalLine> lines);
 
 /// Returns the lines as obstacles, which stop short of vertices and walls by a tenth of this height, or by a
-/// quarter of their length.
-layers::Obstacles obstacles_of(const LineGraph& graph, double first_height);
+/// quarter of their length; with their images where there is a line of symmetry that cuts bodies.
+layers::Obstacles obstacles_of(const LineGraph& graph, double first_height, std::optional<double> symmetry);
+
+/// Returns x of the vertices of lines at this y on the border of the domain, ascending.
+std::vector<double> feet_on_border(const LineGraph& graph, double y);
 
 /// Returns the lines as part of the outer region. Throws MeshError where the layer crosses a line.
 decoupling::InnerLines inner_lines(const LineGraph& graph, std::span<const InternalLine> lines,

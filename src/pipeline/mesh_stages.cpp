@@ -225,7 +225,7 @@ MadeMesh make_mesh(const FittedLayer& fitted, const CaseOptions& options, MeshDr
     clock.begin("sizing");
     const SizeField size = sizes_beyond(fitted, layer, options.sizing);
     const RegionBorders region = fitted.far_field.pitch > 0 ? close_row(layer, fitted.below, fitted.far_field, size)
-                                                            : close_domain(layer, fitted.far_field, size);
+                                                            : close_domain(layer, fitted.far_field, size, fitted.lines);
     const decoupling::OuterRegion outer{
         region.points,    region.borders,     size,
         fitted.far_field, options.decoupling, inner_lines(fitted.lines, options.lines, region)};

@@ -10,6 +10,7 @@
 #include "decoupling/separators.hpp"
 #include "geometry/symmetry.hpp"
 #include "layers/growth.hpp"
+#include "pipeline/internal_lines.hpp"
 
 namespace lamina::pipeline {
 
@@ -75,7 +76,8 @@ std::vector<OuterWallFacts> outer_wall_facts(const decoupling::FarField& far_fie
 }
 
 std::vector<layers::OuterWall> divide_outer_walls(std::span<const OuterWallFacts> walls,
-                                                  const decoupling::FarField& far_field, const SizeField& size) {
+                                                  const decoupling::FarField& far_field, const SizeField& size,
+                                                  const LineGraph& lines) {
     const Box domain = far_field.box();
     std::vector<layers::OuterWall> divided;
     for (const OuterWallFacts& wall : walls) {
@@ -83,11 +85,16 @@ std::vector<layers::OuterWall> divide_outer_walls(std::span<const OuterWallFacts
         const bool is_below = wall.y == far_field.floor;
         const double begin = is_below ? domain.upper.x : domain.lower.x,
                      end = is_below ? domain.lower.x : domain.upper.x;
+        std::vector<double> ends = feet_on_border(lines, wall.y);
+        if (is_below) std::reverse(ends.begin(), ends.end());
+        ends.push_back(end);
+        const std::size_t least = ends.size() > 1 ? 1 : decoupling::min_segments_of_side;
         std::vector<double> x{begin};
-        for (const Point p :
-             decoupling::divide_separator({begin, wall.y}, {end, wall.y}, size, decoupling::min_segments_of_side))
-            x.push_back(p.x);
-        x.push_back(end);
+        for (const double next : ends) {
+            for (const Point p : decoupling::divide_separator({x.back(), wall.y}, {next, wall.y}, size, least))
+                x.push_back(p.x);
+            x.push_back(next);
+        }
         divided.push_back(plate(wall, std::move(x), is_below));
     }
     return divided;
@@ -107,7 +114,7 @@ namespace {
 ///
 /// The border begins at the lower right corner and runs clockwise.
 void close_half(const layers::Layer& layer, const decoupling::FarField& far_field, const SizeField& size,
-                RegionBorders& result) {
+                const LineGraph& lines, RegionBorders& result) {
     const auto [lower_left, lower_right, upper_right, upper_left] = far_field.box().corners();
     const auto x_of = [&](VertexId v) { return layer.points[v.index()].x; };
     std::vector<std::vector<VertexId>> bodies, others;  // from the right to the left
@@ -135,12 +142,21 @@ void close_half(const layers::Layer& layer, const decoupling::FarField& far_fiel
         for (const Point p : decoupling::divide_separator(begin, end, size, 1))
             add_point({p.x, begin.y == end.y ? begin.y : p.y});
     };
+    std::vector<double> feet = feet_on_border(lines, far_field.floor);
+    const auto divide_line_up_to = [&](Point end) {
+        for (; !feet.empty() && feet.back() > end.x; feet.pop_back()) {
+            const Point foot{feet.back(), far_field.floor};
+            divide_up_to(foot);
+            add_point(foot);
+        }
+        divide_up_to(end);
+    };
     add_point(lower_right);
     for (const std::vector<VertexId>& body : bodies) {
-        divide_up_to(layer.points[body.front().index()]);
+        divide_line_up_to(layer.points[body.front().index()]);
         add_border(body);
     }
-    divide_up_to(lower_left);
+    divide_line_up_to(lower_left);
     add_point(lower_left);
     edges = &result.far_field;
     if (layer.outer_walls > 0) {
@@ -162,11 +178,12 @@ void close_half(const layers::Layer& layer, const decoupling::FarField& far_fiel
 
 }  // namespace
 
-RegionBorders close_domain(const layers::Layer& layer, const decoupling::FarField& far_field, const SizeField& size) {
+RegionBorders close_domain(const layers::Layer& layer, const decoupling::FarField& far_field, const SizeField& size,
+                           const LineGraph& lines) {
     RegionBorders result{layer.points, layer.borders, layer.edges.sides, {}, {}};
     bool is_cut = false;  // else a line of symmetry is an outer wall itself
     for (std::size_t e = 0; e < layer.borders.size(); ++e) is_cut |= layer.is_open(e) && !layer.is_outer(e);
-    if (is_cut) close_half(layer, far_field, size, result);
+    if (is_cut) close_half(layer, far_field, size, lines, result);
     if (is_cut || layer.outer_walls == 0) return result;
     const std::span<const std::vector<VertexId>> walls = std::span(layer.borders).last(layer.outer_walls);
     result.borders.resize(layer.borders.size() - walls.size());

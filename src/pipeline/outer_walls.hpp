@@ -13,6 +13,8 @@
 
 namespace lamina::pipeline {
 
+struct LineGraph;
+
 /// A wall on the border of the domain, as the options ask for it.
 struct OuterWallFacts {
     std::string name;         ///< of its marker: `ground`, `floor`, `ceiling`, `symmetry` or `axis`
@@ -29,9 +31,10 @@ std::vector<OuterWallFacts> outer_wall_facts(const decoupling::FarField& far_fie
                                              const Geometry& geometry, const LayerOptions& layer,
                                              const ReferenceConditions& conditions, const layers::LayerGrowth& growth);
 
-/// Returns these walls with vertices at distances that follow the size field.
+/// Returns these walls with vertices at distances that follow the size field, and where lines end on them.
 std::vector<layers::OuterWall> divide_outer_walls(std::span<const OuterWallFacts> walls,
-                                                  const decoupling::FarField& far_field, const SizeField& size);
+                                                  const decoupling::FarField& far_field, const SizeField& size,
+                                                  const LineGraph& lines);
 
 /// The borders of the outer region: of the bodies with their layers and, last, of the domain, if that has walls.
 struct RegionBorders {
@@ -46,7 +49,9 @@ struct RegionBorders {
 const char* symmetry_name(const FarFieldOptions& options);
 
 /// Closes the border of the domain: sides without walls are divided by the size field, from the ends of one wall to
-/// those of the other or to the corners of the far field. So is a line of symmetry between the bodies that it cuts.
-RegionBorders close_domain(const layers::Layer& layer, const decoupling::FarField& far_field, const SizeField& size);
+/// those of the other or to the corners of the far field. So is a line of symmetry between the bodies that it cuts and the
+/// ends of lines.
+RegionBorders close_domain(const layers::Layer& layer, const decoupling::FarField& far_field, const SizeField& size,
+                           const LineGraph& lines);
 
 }  // namespace lamina::pipeline

@@ -63,6 +63,33 @@ TEST(InternalLines, EndOnWallsAndLayersGiveWay) {
     EXPECT_GT(result.check.layer.cells, 10000u);
 }
 
+TEST(InternalLines, EndOnWallsOfTheDomain) {
+    for (const OuterWallKind walls : {OuterWallKind::slip, OuterWallKind::no_slip})
+        for (const bool two_sided : {false, true}) {
+            SCOPED_TRACE(testing::Message() << "two-sided " << two_sided);
+            CaseOptions options = options_with({{.name = "rake",  // the upper end is typed with few digits
+                                                 .points = {{-0.7, -3}, {-0.5, 0.9999}},
+                                                 .two_sided = two_sided}});
+            options.far_field.tunnel = Length{2};
+            options.far_field.tunnel_walls = walls;
+            options.layer.first_height = Length{1e-4};
+            // A two-sided line from wall to wall would part the flow.
+            if (two_sided) options.lines[0].points[1].y = 0.8;
+            const MeshResult result = generate_mesh({"naca:0012"}, options);
+            const MeshCheck check = check_mesh(result.mesh);
+            EXPECT_TRUE(check.valid());
+            EXPECT_TRUE(two_sided || check.walls.bare_edges == 0);
+            double lowest = 0, highest = 0;
+            for (const Segment& edge : marker_of(result.mesh, "rake")->edges)
+                for (const VertexId v : {edge.a, edge.b}) {
+                    lowest = std::min(lowest, result.mesh.points[v.index()].y);
+                    highest = std::max(highest, result.mesh.points[v.index()].y);
+                }
+            EXPECT_EQ(lowest, -1);
+            EXPECT_EQ(highest, two_sided ? 0.8 : 1);
+        }
+}
+
 TEST(InternalLines, TwoSidedOnesAreWallsWithoutThickness) {
     const Point tip{1.5, 0.5};
     const MeshResult result =
@@ -157,6 +184,7 @@ TEST(InternalLines, RefusalsSayWhy) {
     EXPECT_NE(message({.name = "0", .points = {{2, 0}, {3, 0}}}).find("no name"), std::string::npos);
     EXPECT_NE(message({.name = "a", .points = {{2, 0}, {30, 0}}}).find("not inside the far field"), std::string::npos);
     EXPECT_NE(message({.name = "a", .points = {{2, 0}, {3, 0}, {2.5, 0}}}).find("runs back"), std::string::npos);
+    EXPECT_NE(message({.name = "a", .points = {{2, 0}, {30, 0}}}).find("make --far-field larger"), std::string::npos);
     EXPECT_NE(message({.name = "airfoil", .points = {{2, 0}, {3, 0}}}).find("this name already"), std::string::npos);
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include <lamina/error.hpp>
 #include <lamina/geometry.hpp>
 #include <lamina/pipeline.hpp>
 #include <lamina/stream.hpp>
@@ -114,6 +115,36 @@ TEST(Symmetry, HalvesOfBodiesHaveLayersThatEndOnTheLine) {
             expect_half(result);
             EXPECT_EQ(result.check.edges_without_first_layer, 0u);
         }
+}
+
+TEST(Symmetry, LinesEndOnTheLineOfSymmetryAndOnBodies) {
+    const std::vector<std::vector<Point>> lines{
+        {{-1, -0.3}, {-0.8, 0.6}},              // crosses the line of symmetry ahead of the body
+        {{-0.515, 0}, {-0.53, 0.4}},            // begins on it, within the layer at the nose
+        {{0, -0.2}, {0.1, 1}},                  // from the wall outwards
+        {{0.6, 0}, {0.9, 0.3}, {1.2, -0.1}},    // begins and ends on it
+        {{-0.9, 0.2}, {0.9, 0.2}, {1.5, 0.4}},  // through the body
+    };
+    for (const std::vector<Point>& line : lines)
+        for (const bool with_layers : {false, true}) {
+            SCOPED_TRACE(testing::Message() << "line " << &line - lines.data() << ", layers " << with_layers);
+            CaseOptions options = half();
+            options.layer.enabled = with_layers;
+            options.lines = {{.name = "disc", .points = line}};
+            const MeshResult result = generate_mesh(bodies({arc({0, 0}, 0.5)}), options);
+            expect_half(result);
+            EXPECT_EQ(existing_marker(result.mesh, "disc").kind, MarkerKind::internal);
+        }
+}
+
+TEST(Symmetry, TwoSidedLinesMayStandOnTheLineAndNotEncloseFlow) {
+    CaseOptions options = half();
+    options.lines = {{.name = "disc", .points = {{0.8, 0}, {0.8, 0.5}}, .two_sided = true}};
+    const MeshResult result = generate_mesh(bodies({arc({0, 0}, 0.5)}), options);
+    EXPECT_TRUE(check_mesh(result.mesh).valid());
+    EXPECT_EQ(existing_marker(result.mesh, "disc").kind, MarkerKind::wall);
+    options.lines[0].points = {{0.8, 0}, {0.8, 0.7}, {0, 0.7}, {0, 0.2}};
+    EXPECT_THROW(generate_mesh(bodies({arc({0, 0}, 0.5)}), options), OptionError);
 }
 
 TEST(Symmetry, FirstHeightsOfHalvesHold) {
