@@ -113,7 +113,11 @@ std::vector<Point> corners_of(const Mesh& mesh, const VertexLoop& loop) {
         const Point before = mesh.points[loop[(i + n - 1) % n].index()], at = mesh.points[loop[i].index()],
                     after = mesh.points[loop[(i + 1) % n].index()];
         const double turn = cross(unit(at - before), unit(after - at));
-        if (turn < -straight) throw OptionError("solution", "has a mesh whose far field is not convex");
+        if (turn < -straight)
+            throw OptionError(
+                "solution",
+                "has a mesh whose far field is not convex: where layers stand on ground or tunnel walls, --mesh FILE "
+                "with their markers is needed");
         if (turn > straight) corners.push_back(at);
     }
     return corners;

@@ -93,7 +93,11 @@ FarField between_walls(FarField box, const Box& bodies, double chord, const FarF
         box.is_half = true;
     }
     if (!((box.is_half || floor < bodies.lower.y) && bodies.upper.y < ceiling))
-        throw OptionError(options.tunnel ? "tunnel" : "ground", "does not enclose the configuration");
+        throw OptionError(
+            options.tunnel ? "tunnel" : "ground",
+            fmt::format("does not enclose the configuration, which lies from y = {:.6g} to {:.6g}, while the "
+                        "walls are at {:.6g} and {:.6g}: make the tunnel higher",
+                        bodies.lower.y, bodies.upper.y, floor, ceiling));
     box.floor = floor;
     if (options.tunnel) box.ceiling = ceiling;
     box.shape = FarFieldShape::outline;

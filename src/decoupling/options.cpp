@@ -229,8 +229,10 @@ void validate(const FarFieldOptions& options) {
     const auto require = [](bool given, bool base, const char* option, const char* needed) {
         if (given && !base) throw OptionError(option, std::string("needs ") + needed);
     };
-    require(options.tunnel_walls != OuterWallKind::slip, options.tunnel.has_value(), "tunnel_walls", "a tunnel");
-    require(options.ground_wall != OuterWallKind::slip, options.ground.has_value(), "ground_wall", "ground");
+    require(options.tunnel_walls != OuterWallKind::slip, options.tunnel.has_value(), "tunnel_walls",
+            "a tunnel (--tunnel H)");
+    require(options.ground_wall != OuterWallKind::slip, options.ground.has_value(), "ground_wall",
+            "ground (--ground H)");
     require(options.tunnel_layers.has_value(), options.tunnel_walls != OuterWallKind::slip, "tunnel_layers",
             "tunnel_walls without slip");
     require(options.ground_layers.has_value(), options.ground_wall != OuterWallKind::slip, "ground_layers",

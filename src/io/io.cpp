@@ -15,9 +15,22 @@ using namespace io;
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// Returns the format to write. Of those with the extension of the file it is one in space where there is a span.
+const FormatRow& format_of(const fs::path& file, const WriteOptions& options) {
+    const FormatRow& first = find_format(file, options.format);
+    if (options.span <= 0 || first.takes_span || !options.format.empty()) return first;
+    for (const FormatRow& row : format_table())
+        if (row.takes_span && row.extensions == first.extensions) return row;
+    return first;
+}
+
+}  // namespace
+
 void write_mesh(const MeshView& mesh, const fs::path& file, const WriteOptions& options) {
     check_writable(file, options);
-    const FormatRow& format = find_format(file, options.format);
+    const FormatRow& format = format_of(file, options);
     if (format.internal_markers) return format.write(mesh, file, options);
     const std::vector<Marker> markers = markers_of_kind(mesh.markers, false);
     MeshView boundary_alone = mesh;
@@ -26,7 +39,7 @@ void write_mesh(const MeshView& mesh, const fs::path& file, const WriteOptions& 
 }
 
 void require_curved_format(const fs::path& file, const WriteOptions& options) {
-    const FormatRow& format = find_format(file, options.format);
+    const FormatRow& format = format_of(file, options);
     if (options.span > 0) throw UsageError("curved cells have no span: leave the order or the span out");
     if (options.wall_distance) throw UsageError("wall distances are those from straight walls: leave the order out");
     if (format.write_curved != nullptr) return;
@@ -41,7 +54,7 @@ void write_curved_mesh(const MeshView& mesh, const CurvedNodes& nodes, const fs:
                        const WriteOptions& options) {
     require_curved_format(file, options);
     check_writable(file, options);
-    find_format(file, options.format).write_curved(mesh, nodes, file, options);
+    format_of(file, options).write_curved(mesh, nodes, file, options);
 }
 
 CurvedMesh read_curved_mesh(const fs::path& file, const ReadOptions& options) {
@@ -51,7 +64,7 @@ CurvedMesh read_curved_mesh(const fs::path& file, const ReadOptions& options) {
 
 std::vector<Warning> lost_marker_warnings(std::span<const Marker> markers, const fs::path& file,
                                           const WriteOptions& options) {
-    const FormatRow& format = find_format(file, options.format);
+    const FormatRow& format = format_of(file, options);
     const std::vector<Marker> lines = markers_of_kind(markers, true);
     if (format.internal_markers || lines.empty()) return {};
     std::string names;
@@ -68,7 +81,7 @@ Mesh read_mesh(const fs::path& file, const ReadOptions& options) {
 }
 
 void check_writable(const fs::path& file, const WriteOptions& options) {
-    const FormatRow& format = find_format(file, options.format);
+    const FormatRow& format = format_of(file, options);
     require_span(options);
     if (options.span > 0 && !format.takes_span) {
         std::string names;
@@ -81,7 +94,7 @@ void check_writable(const fs::path& file, const WriteOptions& options) {
 }
 
 void require_streamable(const fs::path& file, const WriteOptions& options) {
-    const FormatRow& format = find_format(file, options.format);
+    const FormatRow& format = format_of(file, options);
     if (options.span > 0) throw UsageError("a mesh with a span is written as a whole");
     if (format.layout != nullptr) return;
     std::string names;
@@ -91,27 +104,24 @@ void require_streamable(const fs::path& file, const WriteOptions& options) {
 }
 
 void require_shareable(const fs::path& file, const WriteOptions& options) {
-    if (options.span > 0 || find_format(file, options.format).write_shared == nullptr)
-        require_streamable(file, options);
+    if (options.span > 0 || format_of(file, options).write_shared == nullptr) require_streamable(file, options);
 }
 
 std::unique_ptr<MeshSink> open_mesh_sink(const fs::path& file, const WriteOptions& options) {
     require_streamable(file, options);
     check_writable(file, options);
-    return open_layout_sink(find_format(file, options.format).layout(file), file);
+    return open_layout_sink(format_of(file, options).layout(file), file);
 }
 
 std::vector<fs::path> output_files(const fs::path& file, const WriteOptions& options) {
-    return find_format(file, options.format).files(file, options);
+    return format_of(file, options).files(file, options);
 }
 
-bool takes_parts(const fs::path& file, const WriteOptions& options) {
-    return find_format(file, options.format).takes_parts;
-}
+bool takes_parts(const fs::path& file, const WriteOptions& options) { return format_of(file, options).takes_parts; }
 
 std::string format_name(const fs::path& file, const WriteOptions& options) {
     try {
-        return find_format(file, options.format).name;
+        return format_of(file, options).name;
     } catch (const UsageError&) {
         return {};
     }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "core/limits.hpp"
 #include "core/option_rows.hpp"
 #include "core/reproducible_math.hpp"
@@ -131,10 +133,14 @@ void require_stream_along_walls(const CaseOptions& options) {
     const bool is_level = options.conditions.alpha_deg == 0 && !options.conditions.alphas;
     if (!is_level && (options.far_field.tunnel || options.far_field.ground))
         throw OptionError("alpha",
-                          "the flow runs along ground and tunnel walls: turn the configuration, as with --transform "
-                          "all:rotate:-10");
+                          fmt::format("the flow runs along ground and tunnel walls: turn the configuration, as with "
+                                      "--transform all:rotate:{:g}",
+                                      options.conditions.alphas ? -10 : -options.conditions.alpha_deg));
     if (!is_level && options.far_field.symmetry)
-        throw OptionError("alpha", "the flow runs along the line of symmetry: alpha is 0 there");
+        throw OptionError(
+            "alpha",
+            "the flow runs along the line of symmetry, so alpha is 0 there: mesh the whole configuration without "
+            "--symmetry at other angles");
 }
 
 }  // namespace
@@ -183,9 +189,12 @@ void validate(const CaseOptions& options) {
             throw OptionError("wake_layers", "layers go on along the wake of one angle of attack: give one alpha");
         if (!options.use_flow) throw OptionError("wake_layers", "needs use_flow, which finds the wakes");
         if (options.far_field.symmetry)
-            throw OptionError("wake_layers", "layers do not go on along wakes beside a line of symmetry");
+            throw OptionError(
+                "wake_layers",
+                "layers do not go on along wakes beside a line of symmetry: leave it out, or mesh the whole "
+                "configuration");
         if (options.far_field.pitch)
-            throw OptionError("wake_layers", "layers do not go on along wakes behind a row of blades");
+            throw OptionError("wake_layers", "layers do not go on along wakes behind a row of blades: leave it out");
         if (options.layer.layers) throw OptionError("wake_layers", "needs layers up to isotropy: layers auto");
     }
 }
