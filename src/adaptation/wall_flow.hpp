@@ -23,6 +23,9 @@ struct WallFlowEdge {
     double layers = 0;        ///< number of those cells; two triangles count as one quadrilateral
     std::vector<std::uint32_t> column;  ///< those cells, from the wall on
     std::vector<double> tops;           ///< per cell of the column: the distance from the wall where it ends
+
+    /// Returns the distance from the wall of the middle of a cell of the column.
+    double middle(std::size_t row) const { return 0.5 * (tops[row] + (row > 0 ? tops[row - 1] : 0)); }
 };
 
 /// The edges of one wall, in their order; a closed chain, counter-clockwise round a body.

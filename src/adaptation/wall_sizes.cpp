@@ -4,19 +4,63 @@
 #include <cmath>
 
 #include "core/reproducible_math.hpp"
+#include "mesh/adjacency.hpp"
 
 namespace lamina::adaptation {
 
 namespace {
 
-/// Returns a field at the middles of the edges of a wall: at the wall, or in the cells on it.
-EdgeValues values_on(const WallFlow& wall, const SolutionField& field) {
-    EdgeValues values;
-    for (const WallFlowEdge& edge : wall)
-        values.push_back(field.at_cells
-                             ? field.values[edge.cell]
-                             : 0.5 * (field.values[edge.ends.a.index()] + field.values[edge.ends.b.index()]));
-    return values;
+/// A field above the edges of a wall, in the cells of the layer.
+class ColumnValues {
+public:
+    ColumnValues(const Mesh& mesh, const SolutionField& field) : field_(field), cells_(mesh) {}
+
+    /// Returns the value in a cell: that given, or the mean over its corners.
+    double in_cell(std::size_t cell) const {
+        if (field_.at_cells) return field_.values[cell];
+        double sum = 0;
+        for (std::size_t i = 0; i < cells_.corners(cell); ++i) sum += field_.values[cells_.corner(cell, i).index()];
+        return sum / static_cast<double>(cells_.corners(cell));
+    }
+    /// Returns the value at this distance from the wall, linear between the middles of cells and constant beyond them. Middles
+    /// rise from `row` on, which is moved to the last one below.
+    double at_height(const WallFlowEdge& edge, double height, std::size_t& row) const {
+        if (edge.column.empty()) return in_cell(edge.cell);
+        while (row + 1 < edge.column.size() && edge.middle(row + 1) < height) ++row;
+        const std::size_t above = std::min(row + 1, edge.column.size() - 1);
+        const double low = edge.middle(row), high = edge.middle(above), below = in_cell(edge.column[row]);
+        if (!(height > low && high > low)) return below;
+        return below + std::min((height - low) / (high - low), 1.0) * (in_cell(edge.column[above]) - below);
+    }
+
+private:
+    const SolutionField& field_;
+    mesh::CellEdges cells_;
+};
+
+/// Returns the second derivatives of a field along a wall, each the mean over the column of the edge in the p-norm: the
+/// error of the column is that of a second derivative which is the same at all heights. They are roots of mean squares over
+/// three edges.
+EdgeValues column_curvatures(const WallFlow& wall, const ColumnValues& values, double p) {
+    EdgeValues squares(wall.size(), 0.0);
+    for (std::size_t i = 0; i < wall.size(); ++i) {
+        const EdgesBeside beside(wall, i);
+        const WallFlowEdge& edge = wall[i];
+        double sum = 0, bottom = 0;
+        std::size_t before = 0, after = 0;
+        for (std::size_t row = 0; row < edge.column.size(); ++row) {
+            const double height = edge.middle(row);
+            const double second = beside.second_derivative(values.at_height(wall[beside.before], height, before),
+                                                           values.in_cell(edge.column[row]),
+                                                           values.at_height(wall[beside.after], height, after));
+            if (second != 0) sum += (edge.tops[row] - bottom) * core::pow_reproducible(std::abs(second), p);
+            bottom = edge.tops[row];
+        }
+        if (sum > 0) squares[i] = core::pow_reproducible(sum / bottom, 2 / p);
+    }
+    EdgeValues roots = means_of_three(wall, squares);
+    for (double& root : roots) root = std::sqrt(root);
+    return roots;
 }
 
 /// Returns the second derivatives of values along a wall: roots of mean squares over three edges.
@@ -96,7 +140,8 @@ std::vector<EdgeValues> wall_curvatures(const Solution& solution, const std::vec
     for (std::size_t f = 0; f < scales.size(); ++f) {
         std::vector<EdgeValues> of_field;
         of_field.reserve(walls.size());
-        for (const WallFlow& wall : walls) of_field.push_back(curvatures(wall, values_on(wall, solution.fields[f])));
+        const ColumnValues values(solution.mesh, solution.fields[f]);
+        for (const WallFlow& wall : walls) of_field.push_back(column_curvatures(wall, values, norm.power()));
         raise(curvature, of_field, scales[f]);
     }
     const double by_fields = edges_asked(walls, curvature, norm), by_friction = edges_asked(walls, friction, norm);

@@ -9,6 +9,7 @@
 
 #include "adaptation/fields.hpp"
 #include "adaptation/wall_flow.hpp"
+#include "adaptation/wall_sizes.hpp"
 #include "core/segments.hpp"
 
 namespace lamina::test {
@@ -116,6 +117,33 @@ TEST(WallFlow, RefusesWhatSaysNothingAboutWalls) {
     Solution far = solution;
     std::erase_if(far.mesh.markers, [](const Marker& marker) { return marker.kind == MarkerKind::far_field; });
     EXPECT_THROW(adaptation::find_wall_flow(far, {"U", 1e-6}), OptionError);
+}
+
+/// A shock beside a wall, where its field is 0, asks for the spacings of one with the same error at all heights.
+TEST(WallFlow, FieldsAboveTheWallCount) {
+    const MeshResult made = layered_mesh();
+    constexpr double p = 2, thickness = 0.01;
+    const adaptation::ErrorNorm norm(p);
+    const auto step = [](Point at) { return std::tanh((at.x - 0.5) / 0.02); };
+    const std::vector<double> away = wall_distances(made.mesh);
+    SolutionField even = field_of(made.mesh, step), fading = even;
+    for (std::size_t v = 0; v < away.size(); ++v) fading.values[v] *= std::min(away[v] / thickness, 1.0);
+    const Solution solution = solution_with(made, false, {even, fading});
+    const auto walls = adaptation::find_wall_flow(solution, {"U", 1e-6});
+    const std::vector<double> of_even{1, 0}, of_fading{0, 1};
+    const auto by_even = adaptation::wall_curvatures(solution, walls, of_even, norm),
+               by_fading = adaptation::wall_curvatures(solution, walls, of_fading, norm);
+    std::size_t compared = 0;
+    for (std::size_t i = 0; i < walls[0].size(); ++i) {
+        const adaptation::WallFlowEdge& edge = walls[0][i];
+        if (std::abs(edge.at.x - 0.5) > 0.02) continue;
+        // The integral of (n / thickness)^p over the column, by hand.
+        const double ramp = std::min(edge.layer_height / thickness, 1.0), height = edge.layer_height / thickness;
+        const double share = std::sqrt((ramp * ramp * ramp / 3 + height - ramp) / height);
+        EXPECT_NEAR(by_fading[0][i], share * by_even[0][i], 0.1 * by_even[0][i]) << edge.at.x;
+        ++compared;
+    }
+    EXPECT_GE(compared, 4u);
 }
 
 /// The next mesh has the y+ asked for, layers as thick as the boundary layer, and wall edges that are short where the pressure
