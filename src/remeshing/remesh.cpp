@@ -24,9 +24,11 @@ void fit_lengths(Passes& passes) {
     passes.divide_longer(longest_in_order);
 }
 
-/// Improves shapes, and puts the lengths in order that this changes. More rounds raise the mean quality by 0.002.
+/// Improves shapes, and puts the lengths in order that this changes. Where little changes a round costs little. On four mild
+/// metrics the shares of edges from 0.7 to 1.4 long are 0.988 to 0.998 with 2 rounds, 0.990 to 0.998 with 4 (and mean qualities
+/// 0.950 to 0.971 and 0.953 to 0.971), for 7 % of the time of five passes.
 void improve(Passes& passes) {
-    constexpr int rounds = 2;
+    constexpr int rounds = 4;
     for (int round = 0; round < rounds; ++round) {
         passes.swap_diagonals();
         passes.move_vertices();
