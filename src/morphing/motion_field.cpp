@@ -64,6 +64,7 @@ MotionField::MotionField(const Mesh& mesh, const Rays& rays, std::span<const Poi
         from_origin_.push_back(mesh.points[v] - origin_);
     }
     std::vector<Entry> entries;
+    std::vector<double> diagonal(vertex_.size(), 0);
     // Half the cotangent of the angle at c couples a and b, times the stiffness of the triangle.
     const auto couple = [&](VertexId a, VertexId b, VertexId c) {
         const Point p = mesh.points[c.index()], to_a = mesh.points[a.index()] - p, to_b = mesh.points[b.index()] - p;
@@ -74,7 +75,7 @@ MotionField::MotionField(const Mesh& mesh, const Rays& rays, std::span<const Poi
         for (std::size_t k = 0; k < 2; ++k) {
             const std::uint32_t here = number[ends[k]];
             if (here == not_free) continue;
-            entries.push_back({here, here, value});
+            diagonal[here] += value;
             const std::size_t other = ends[1 - k];
             if (number[other] != not_free) {
                 if (number[other] < here) entries.push_back({here, number[other], -value});
@@ -90,6 +91,7 @@ MotionField::MotionField(const Mesh& mesh, const Rays& rays, std::span<const Poi
         couple(t.v[1], t.v[2], t.v[0]);
         couple(t.v[2], t.v[0], t.v[1]);
     });
+    for (std::uint32_t i = 0; i < diagonal.size(); ++i) entries.push_back({i, i, diagonal[i]});
     system_ = SymmetricSystem(vertex_.size(), std::move(entries));
 }
 
