@@ -5,7 +5,12 @@
     mesh = lamina.mesh("naca:0012", reynolds=6e6)
     mesh.write("naca0012.su2")
 
-docs/python.md is the guide.
+docs/python.md is the guide. NODE_TYPES and BOUNDARY_LAYER_STATES name the numbers of Mesh.node_type and FlowSide.state.
+
+    >>> lamina.NODE_TYPES[:3], lamina.BOUNDARY_LAYER_STATES
+    (('inside', 'wall', 'far_field'), ('laminar', 'turbulent', 'separated'))
+    >>> lamina.__version__.count(".")
+    2
 """
 
 from typing import TYPE_CHECKING, Any

@@ -29,7 +29,16 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class BatchResult(Values):
-    """What became of one job of `lamina.batch()`: `mesh` or `error` is None."""
+    """What became of one job of `lamina.batch()`: `mesh` or `error` is None.
+
+    Examples
+    --------
+    >>> [result] = lamina.batch(["naca:0012"], first_height=1e-3)
+    >>> result.name, result.error
+    ('naca_0012', None)
+    >>> len(result.mesh) > 1000
+    True
+    """
 
     name: str  #: of the input
     options: dict[str, Any]  #: the values of the sweep
@@ -128,6 +137,12 @@ def batch(inputs: Mapping[str, Sections] | Iterable[Sections], *, jobs: int | No
     An input that cannot be meshed yields a result with `error`, and the others go on. Wrong options raise at once. No
     more than twice `jobs` meshes are held, besides those that the caller keeps. Leaving the loop, or Ctrl-C in it, ends the
     meshes in hand.
+
+    Examples
+    --------
+    >>> results = lamina.batch(["naca:0012", "naca:2412"], first_height=1e-3, jobs=1)
+    >>> sorted(result.name for result in results)
+    ['naca_0012', 'naca_2412']
     """
     swept = dict(sweep or {})
     for values in itertools.product(*swept.values()):

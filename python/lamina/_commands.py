@@ -39,7 +39,14 @@ _MOST_LEVELS = 12
 @dataclass(frozen=True, eq=False, repr=False)
 class FlowSide(Values):
     """The flow along one side of a body, from the stagnation point to the trailing edge. Thicknesses and friction are 0
-    without a Reynolds number; None is what this kind of flow does not have."""
+    without a Reynolds number; None is what this kind of flow does not have.
+
+    Examples
+    --------
+    >>> side = lamina.flow("naca:0012").elements["airfoil"].lower
+    >>> round(float(side.cp.max()), 2)
+    1.0
+    """
 
     points: np.ndarray  #: (n, 2) on the wall
     cp: np.ndarray  #: (n,) pressure coefficient
@@ -60,7 +67,15 @@ class FlowSide(Values):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ElementFlow(Values):
-    """The flow along both sides of a body."""
+    """The flow along both sides of a body.
+
+    Examples
+    --------
+    >>> flow = lamina.flow("naca:0012", alpha=4)
+    >>> side = flow.elements["airfoil"].upper
+    >>> bool(side.cp.min() < -1)
+    True
+    """
 
     upper: FlowSide  #: the side that follows the outline clockwise
     lower: FlowSide  #: the side that follows the outline counter-clockwise
@@ -68,7 +83,16 @@ class ElementFlow(Values):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Flow(Values):
-    """The flow before a mesh. Where it is nowhere faster than sound, the mesh is None, and so are drags without layers."""
+    """The flow before a mesh. Where it is nowhere faster than sound, the mesh is None, and so are drags without layers.
+
+    Examples
+    --------
+    >>> flow = lamina.flow("naca:0012", alpha=4)
+    >>> round(flow.lift, 2)
+    0.48
+    >>> flow.triangles is None
+    True
+    """
 
     alpha: float  #: direction of the free stream, in degrees
     chord: float  #: reference length of the coefficients
@@ -94,6 +118,11 @@ def flow(sections: Sections, **options: Unpack[MeshOptions]) -> Flow:
 
     Of the options of `lamina.mesh()` those of the flow count (`alpha`, `mach`, `reynolds`, `chord`, ...), of the geometry,
     and of walls outside (`ground`, `tunnel`, `periodic`). Raises OptionError, InputError and IoError.
+
+    Examples
+    --------
+    >>> lamina.flow("naca:2412", alpha=-2.1, reynolds=1e6).lift < 0.1
+    True
     """
     arguments = run_arguments(sections, {**_NO_PRESET, **options})
     facts = _lamina.flow(arguments.sections, arguments.values)
@@ -107,7 +136,13 @@ def flow(sections: Sections, **options: Unpack[MeshOptions]) -> Flow:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Info(Values):
-    """What is known of sections. print() shows what `lamina info` does."""
+    """What is known of sections. print() shows what `lamina info` does.
+
+    Examples
+    --------
+    >>> lamina.info("naca:0012").elements[0]["name"]
+    'airfoil'
+    """
 
     elements: Sequence[Mapping[str, Any]]  #: per body: name, source, format, repairs, wall_vertices and so on
     text: str  #: the same as text
@@ -118,7 +153,13 @@ class Info(Values):
 
 @with_options
 def info(sections: Sections, **options: Unpack[MeshOptions]) -> Info:
-    """Describes sections as they were read, repaired and prepared, as `lamina info` does."""
+    """Describes sections as they were read, repaired and prepared, as `lamina info` does.
+
+    Examples
+    --------
+    >>> print(lamina.info("naca:0012").text.splitlines()[0])
+    airfoil
+    """
     arguments = run_arguments(sections, {**_NO_PRESET, **options})
     return Info(*_lamina.describe(arguments.sections, arguments.values))
 
@@ -133,6 +174,13 @@ def case(solver: Literal["openfoam", "su2"], folder: str | os.PathLike[str], sec
     turbulence: the model; None: none below a Reynolds number of 1e4, Spalart-Allmaras above. unsteady: the case is solved
     in time. overwrite: files of the folder are replaced. Returns the mesh. Raises what `lamina.mesh()` raises, and
     UsageError where files are there already.
+
+    Examples
+    --------
+    >>> mesh = lamina.case("su2", "case", "naca:0012", reynolds=1e6, layers=10)
+    >>> import os
+    >>> "mesh.su2" in os.listdir("case")
+    True
     """
     arguments = run_arguments(sections, options)
     with callback_of(progress) as callback:
@@ -146,7 +194,14 @@ def case(solver: Literal["openfoam", "su2"], folder: str | os.PathLike[str], sec
 
 @dataclass(frozen=True, eq=False, repr=False)
 class FamilyMember(Values):
-    """One mesh of a family."""
+    """One mesh of a family.
+
+    Examples
+    --------
+    >>> coarse, fine = lamina.family("naca:0012", levels=2, ratio=2, first_height=1e-3)
+    >>> coarse.divisor, fine.divisor
+    (0.5, 1)
+    """
 
     level: int  #: 0 is the coarsest
     divisor: float  #: lengths are those of the options divided by this
@@ -163,6 +218,12 @@ def family(sections: Sections, *, levels: int = 4, ratio: float = math.sqrt(2), 
 
     levels: their number, up to 12. ratio: of all lengths from one to the next. base_level: the level with the lengths of the
     options; None: the middle one. write: path of the mesh files, with {level} in it. The finest mesh is made first.
+
+    Examples
+    --------
+    >>> members = lamina.family("naca:0012", levels=2, ratio=2, first_height=1e-3)
+    >>> [member.level for member in members]
+    [0, 1]
     """
     if not 1 <= levels <= _MOST_LEVELS:
         raise OptionError(f"levels: must be from 1 to {_MOST_LEVELS}, not {levels}")
@@ -192,7 +253,15 @@ def family(sections: Sections, *, levels: int = 4, ratio: float = math.sqrt(2), 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class SolutionSizes(Values):
-    """Edge lengths that a solution asks for."""
+    """Edge lengths that a solution asks for.
+
+    Examples
+    --------
+    >>> mesh = lamina.mesh("naca:0012", first_height=1e-3, layers=4)
+    >>> found = lamina.sizes(mesh, {"p": mesh.points[:, 0] ** 2}, vertices=5000)
+    >>> found.points.shape[1], bool(found.sizes.min() > 0)
+    (2, True)
+    """
 
     points: np.ndarray  #: (n, 2)
     triangles: np.ndarray  #: (m, 3)
@@ -219,6 +288,13 @@ def sizes(solution: str | os.PathLike[str] | Mesh, fields: str | Sequence[str] |
     solution: a file or folder of a solver, `fields` being names ("p", "U:x", "mag(U)") and `mesh` the file of its mesh
     where the solution does not hold it; or a Mesh, `fields` being arrays by their names, with a number for each point or
     for each cell. norm: large ones see large errors above all. max_change: largest factor by which sizes change.
+
+    Examples
+    --------
+    >>> mesh = lamina.mesh("naca:0012", first_height=1e-3, layers=4)
+    >>> found = lamina.sizes(mesh, {"p": mesh.points[:, 0] ** 2}, vertices=5000)
+    >>> len(found.sizes) == len(found.points)
+    True
     """
     if isinstance(solution, Mesh):
         if not isinstance(fields, Mapping):
@@ -245,14 +321,29 @@ def _field(mesh: Mesh, name: str, values: ArrayLike) -> tuple[str, bool, np.ndar
 def convert(source: str | os.PathLike[str], target: str | os.PathLike[str], *, input_format: str = "",
             **options: Any) -> Mesh:
     """Reads a mesh and writes it in another format, as `lamina convert` does. options: those of `Mesh.write()`. Returns
-    the mesh."""
+    the mesh.
+
+    Examples
+    --------
+    >>> lamina.mesh("naca:0012", first_height=1e-3).write("naca.vtu")
+    >>> mesh = lamina.convert("naca.vtu", "naca.su2")
+    >>> lamina.read("naca.su2") == mesh
+    True
+    """
     mesh = read(source, format=input_format)
     mesh.write(target, **options)
     return mesh
 
 
 class Page:
-    """A page with an interactive view of a mesh: one HTML file. Notebooks show it in a frame."""
+    """A page with an interactive view of a mesh: one HTML file. Notebooks show it in a frame.
+
+    Examples
+    --------
+    >>> mesh = lamina.mesh("naca:0012", first_height=1e-3, layers=4)
+    >>> lamina.view(mesh).html[:15]
+    '<!DOCTYPE html>'
+    """
 
     def __init__(self, html: str, height: int) -> None:
         self.html = html  #: the page
@@ -287,5 +378,12 @@ class Page:
 
 
 def view(mesh: Mesh | str | os.PathLike[str], *, title: str = "mesh", height: int = 600) -> Page:
-    """Returns the page that `lamina view` writes, to zoom into a mesh: in a notebook it appears in a frame."""
+    """Returns the page that `lamina view` writes, to zoom into a mesh: in a notebook it appears in a frame.
+
+    Examples
+    --------
+    >>> mesh = lamina.mesh("naca:0012", first_height=1e-3, layers=4)
+    >>> "<html" in lamina.view(mesh, title="NACA 0012").html
+    True
+    """
     return Page(_lamina.page((mesh if isinstance(mesh, Mesh) else read(mesh))._data, title), height)

@@ -16,6 +16,14 @@ class DynamicTriangulation:
 
     After each change it is the triangulation that constrained_delaunay() makes of the points and segments it has then.
     Points keep their numbers; those of removed points are not used again. Calls on several threads must not overlap.
+
+    Examples
+    --------
+    >>> dynamic = lamina.DynamicTriangulation([[0, 0], [1, 0], [0, 1]])
+    >>> dynamic.insert([[1, 1]]).tolist()
+    [3]
+    >>> len(dynamic.triangulation())
+    2
     """
 
     def __init__(self, points: Any = (), segments: Any = ()) -> None:

@@ -9,7 +9,13 @@ from typing import Any, NamedTuple
 
 
 class RunEstimate(NamedTuple):
-    """What a run will take, by estimate, before the work begins."""
+    """What a run will take, by estimate, before the work begins.
+
+    Examples
+    --------
+    >>> lamina.RunEstimate(triangles=1e6, memory_bytes=1e9, seconds=1).triangles
+    1000000.0
+    """
 
     triangles: float  #: number of triangles; a quadrilateral counts as two
     memory_bytes: float  #: largest memory of the process
@@ -17,23 +23,59 @@ class RunEstimate(NamedTuple):
 
 
 class Error(Exception):
-    """The base of all errors that lamina raises."""
+    """The base of all errors that lamina raises.
+
+    Examples
+    --------
+    >>> try:
+    ...     lamina.naca("12")
+    ... except lamina.Error as error:
+    ...     print(error.exit_code)
+    2
+    """
 
     exit_code: int = 1  #: what the program `lamina` returns for this kind of error
 
 
 class UsageError(Error, ValueError):
-    """Arguments that contradict each other or that lamina does not know."""
+    """Arguments that contradict each other or that lamina does not know.
+
+    Examples
+    --------
+    >>> try:
+    ...     lamina.mesh("naca:0012", groth=1.2)
+    ... except lamina.UsageError as error:
+    ...     print(error)
+    groth: no such option: did you mean 'growth'?
+    """
 
     exit_code = 2
 
 
 class WrongTypeError(UsageError, TypeError):
-    """An argument of a type that lamina cannot use; the message says what was given."""
+    """An argument of a type that lamina cannot use; the message says what was given.
+
+    Examples
+    --------
+    >>> try:
+    ...     lamina.mesh(7)
+    ... except TypeError as error:
+    ...     print(type(error).__name__)
+    WrongTypeError
+    """
 
 
 class OptionError(UsageError):
-    """An option whose value is out of range, of the wrong kind, or does not go with the others."""
+    """An option whose value is out of range, of the wrong kind, or does not go with the others.
+
+    Examples
+    --------
+    >>> try:
+    ...     lamina.mesh("naca:0012", growth=0.5)
+    ... except lamina.OptionError as error:
+    ...     print(error.option, error.reason)
+    growth 0.5 is out of range: must be > 1
+    """
 
     option: str = ""  #: name of the option
     reason: str = ""  #: what is wrong with its value
@@ -44,13 +86,31 @@ class OptionTypeError(OptionError, WrongTypeError):
 
 
 class LimitError(OptionError):
-    """A run that would exceed a limit; `option` is the one to change."""
+    """A run that would exceed a limit; `option` is the one to change.
+
+    Examples
+    --------
+    >>> try:
+    ...     lamina.mesh("naca:0012", max_triangles=1000)
+    ... except lamina.LimitError as error:
+    ...     print(error.estimate.triangles > 1000)
+    True
+    """
 
     estimate: RunEstimate  #: what the run would take
 
 
 class InputError(Error, ValueError):
-    """Input that cannot be used."""
+    """Input that cannot be used.
+
+    Examples
+    --------
+    >>> try:
+    ...     lamina.delaunay([[0, 0], [1, 0], [0, 0]])
+    ... except lamina.InputError as error:
+    ...     print(error.points)
+    [0, 2]
+    """
 
     exit_code = 3
     reason: str = ""  #: what is wrong, without the place
@@ -63,7 +123,13 @@ class InputError(Error, ValueError):
 
 
 class MeshError(Error, RuntimeError):
-    """A mesh of the promised standard that could not be made."""
+    """A mesh of the promised standard that could not be made.
+
+    Examples
+    --------
+    >>> issubclass(lamina.MeshError, RuntimeError)
+    True
+    """
 
     exit_code = 4
     at: tuple[float, float] | None = None  #: the place of the first defect, where it is known
@@ -71,7 +137,16 @@ class MeshError(Error, RuntimeError):
 
 class IoError(Error, OSError):
     """A file that could not be read or written. `errno`, `strerror` and `filename` are those of the system where it says
-    why, and then the error is also a FileNotFoundError, a PermissionError, and so on."""
+    why, and then the error is also a FileNotFoundError, a PermissionError, and so on.
+
+    Examples
+    --------
+    >>> try:
+    ...     lamina.read("missing.vtu")
+    ... except FileNotFoundError as error:
+    ...     print(error.filename)
+    missing.vtu
+    """
 
     exit_code = 5
     file: str = ""  #: path of the file
@@ -125,6 +200,13 @@ class MeshWarning(UserWarning):
 
     `lamina.mesh()` passes these to `warnings.warn()`, and they stay in `Mesh.warnings`. To make them errors:
     `warnings.simplefilter("error", lamina.MeshWarning)`.
+
+    Examples
+    --------
+    >>> import warnings
+    >>> with warnings.catch_warnings():
+    ...     warnings.simplefilter("ignore", lamina.MeshWarning)
+    ...     mesh = lamina.mesh("naca:0012", reynolds=6e6)
     """
 
     code: str = ""  #: stable name of the kind: "first_layer_lost" (docs/reference/checks.md, "Warnings")

@@ -26,7 +26,14 @@ _KINDS = _lamina.marker_kinds
 
 @dataclass(frozen=True, eq=False, repr=False)
 class QualitySummary(Values):
-    """Statistics of the cells of one region; all numbers are 0 where there are no cells. Angles are in degrees."""
+    """Statistics of the cells of one region; all numbers are 0 where there are no cells. Angles are in degrees.
+
+    Examples
+    --------
+    >>> mesh = lamina.mesh("naca:0012", first_height=1e-3, layers=4)
+    >>> lamina.check(mesh).isotropic.min_angle > 25
+    True
+    """
 
     cells: int  #: number of cells
     min_angle: float  #: smallest angle of all cells
@@ -46,7 +53,14 @@ class QualitySummary(Values):
 
 @dataclass(frozen=True)
 class TransitionSummary:
-    """Areas of layer cells over those of the isotropic cells beyond; 1 is ideal."""
+    """Areas of layer cells over those of the isotropic cells beyond; 1 is ideal.
+
+    Examples
+    --------
+    >>> mesh = lamina.mesh("naca:0012", first_height=1e-3, layers=4)
+    >>> 0.3 < lamina.check(mesh).transition.median_area_ratio < 3
+    True
+    """
 
     edges: int  #: edges between the two regions
     p01_area_ratio: float  #: 1st percentile
@@ -57,7 +71,14 @@ class TransitionSummary:
 
 @dataclass(frozen=True)
 class WallSummary:
-    """How evenly the walls are divided, and how high the cells on them are."""
+    """How evenly the walls are divided, and how high the cells on them are.
+
+    Examples
+    --------
+    >>> mesh = lamina.mesh("naca:0012", first_height=1e-3, layers=4)
+    >>> lamina.check(mesh).walls.edges == len(mesh.markers["airfoil"])
+    True
+    """
 
     edges: int  #: edges on walls
     max_ratio: float  #: largest ratio of the lengths of neighbouring edges
@@ -73,7 +94,14 @@ class WallSummary:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class MeshCheck(Values):
-    """The result of `lamina.check()`: whether the mesh is valid, exactly, and how good it is."""
+    """The result of `lamina.check()`: whether the mesh is valid, exactly, and how good it is.
+
+    Examples
+    --------
+    >>> mesh = lamina.mesh("naca:0012", first_height=1e-3, layers=4)
+    >>> lamina.check(mesh).valid, lamina.check(mesh).defects
+    (True, [])
+    """
 
     defects: list[tuple[str, tuple[float, float]]]  #: the first 20, each with a place; empty: the mesh is valid
     defect_count: int  #: number of all defects
@@ -116,7 +144,16 @@ class MeshCheck(Values):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class WallVertices(Values):
-    """The vertices of the walls, body by body in the order of the outline, counter-clockwise round each."""
+    """The vertices of the walls, body by body in the order of the outline, counter-clockwise round each.
+
+    Examples
+    --------
+    >>> mesh = lamina.mesh("naca:0012", first_height=1e-3, layers=4)
+    >>> len(mesh.wall) == len(mesh.markers["airfoil"])
+    True
+    >>> float(mesh.wall.arc_length[0])
+    0.0
+    """
 
     vertex: np.ndarray  #: (n,) indices into Mesh.points
     marker: np.ndarray  #: (n,) indices into list(Mesh.markers), of the edge that begins at the vertex
@@ -136,6 +173,16 @@ class Mesh:
     Vertices of the walls come first, in the order of the input, then those of the layer, then the rest. Arrays per cell
     hold one entry per triangle, followed by one per quadrilateral; they are empty for meshes from files that do not
     hold them.
+
+    Examples
+    --------
+    >>> mesh = lamina.mesh("naca:0012", first_height=1e-3, layers=4)
+    >>> mesh.points.shape[1], mesh.triangles.shape[1], sorted(mesh.markers)
+    (2, 3, ['airfoil', 'farfield'])
+    >>> mesh.marker_kinds["airfoil"]
+    'wall'
+    >>> mesh.quality().valid
+    True
     """
 
     _data: _lamina.Mesh
@@ -500,6 +547,12 @@ def mesh_of_arrays(points: Any, triangles: Any, markers: Mapping[str, Any], *, q
     points: (n, 2) coordinates. triangles: (m, 3), quads: (k, 4) indices into them, counter-clockwise. markers: for each
     name (l, 2) indices, with the mesh on the left of each edge. marker_kinds: "wall" (where nothing is said),
     "far_field", "symmetry", "other", "periodic" or "internal". `lamina.check()` says whether the mesh is valid.
+
+    Examples
+    --------
+    >>> mesh = lamina.mesh_of_arrays([[0, 0], [1, 0], [0, 1]], [[0, 1, 2]], {"side": [[0, 1], [1, 2], [2, 0]]})
+    >>> lamina.check(mesh).valid
+    True
     """
     kinds = dict(marker_kinds or {})
     named = [(name, _KINDS.index(kinds.get(name, "wall")), edges) for name, edges in markers.items()]
@@ -510,12 +563,24 @@ def read(path: str | os.PathLike[str], *, format: str = "") -> Mesh:
     """Reads a mesh from a file. The extension says its format, unless `format` names one of `lamina.formats()`.
 
     Raises IoError where the file cannot be read, InputError where it is malformed, UsageError for unknown formats.
+
+    Examples
+    --------
+    >>> lamina.mesh("naca:0012", first_height=1e-3).write("mesh.msh")
+    >>> sorted(lamina.read("mesh.msh").markers)
+    ['airfoil', 'farfield']
     """
     return Mesh._from(_lamina.read(os.fspath(path), format))
 
 
 def write(mesh: Mesh, path: str | os.PathLike[str], **options: Any) -> None:
-    """Writes a mesh to a file: `mesh.write(path, **options)`."""
+    """Writes a mesh to a file: `mesh.write(path, **options)`.
+
+    Examples
+    --------
+    >>> mesh = lamina.mesh("naca:0012", first_height=1e-3, layers=4)
+    >>> lamina.write(mesh, "mesh.vtu", wall_distance=True)
+    """
     mesh.write(path, **options)
 
 
@@ -525,12 +590,24 @@ def check(mesh: Mesh, *, min_angle: float | None = None, first_height: float | N
     A mesh is valid if its cells are counter-clockwise, conform, and cover its domain once, and if the markers are its
     boundary. `min_angle`, in degrees, is the bound of `QualitySummary.angles_below_bound`; `first_height`, in units of
     the input, the height that first cells should have, else their median on each marker.
+
+    Examples
+    --------
+    >>> mesh = lamina.mesh("naca:0012", first_height=1e-3, layers=4)
+    >>> lamina.check(mesh, first_height=1e-3).valid
+    True
     """
     return mesh.quality(min_angle=min_angle, first_height=first_height)
 
 
 def formats() -> list[str]:
-    """Returns the names of the formats that meshes are written in."""
+    """Returns the names of the formats that meshes are written in.
+
+    Examples
+    --------
+    >>> "su2" in lamina.formats()
+    True
+    """
     return _lamina.format_names()
 
 

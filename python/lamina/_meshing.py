@@ -44,6 +44,12 @@ def mesh(sections: Sections, *, progress: Progress = None, **options: Any) -> Me
     Raises OptionError and UsageError for options, InputError and IoError for sections, LimitError for a run that would
     need too much, MeshError where no mesh of the promised standard can be made. Issues a MeshWarning for each of
     `Mesh.warnings`.
+
+    Examples
+    --------
+    >>> mesh = lamina.mesh("naca:0012", first_height=1e-3, layers=4)
+    >>> sorted(mesh.markers), int(mesh.layer.max())
+    (['airfoil', 'farfield'], 4)
     """
     with callback_of(progress) as callback:
         result = make_mesh(sections, callback, options)

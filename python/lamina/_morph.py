@@ -20,6 +20,14 @@ class MorphMap:
     Layers move as rigid bodies with their walls, and the rest smoothly; the outer boundary stays. Arrays of
     wall points are (n, 2) coordinates in the order of `wall`, in units of the input. Raises MeshError for a mesh that is
     not valid.
+
+    Examples
+    --------
+    >>> mesh = lamina.mesh("naca:0012", first_height=1e-3, layers=4)
+    >>> moving = lamina.MorphMap(mesh)
+    >>> moved = moving.morph(mesh.points[moving.wall] + [0, 0.01])
+    >>> moved.quality().valid
+    True
     """
 
     def __init__(self, mesh: Mesh) -> None:

@@ -16,7 +16,15 @@ from ._mesh import Mesh
 
 @dataclass(frozen=True, eq=False, repr=False)
 class RemeshedMesh(Values):
-    """The result of `lamina.remesh()`."""
+    """The result of `lamina.remesh()`.
+
+    Examples
+    --------
+    >>> mesh = lamina.mesh("naca:0012", first_height=1e-3, layers=4)
+    >>> made = lamina.remesh(mesh, np.full(len(mesh.points), 0.5))
+    >>> 0 < made.unit_edges <= 1
+    True
+    """
 
     mesh: Mesh  #: vertices that stay come first, in the order that they had
     metric: np.ndarray  #: (n, 3) xx, xy, yy at its vertices: as it was asked for, scaled, graded and limited
@@ -29,6 +37,11 @@ def read_metric(path: str | os.PathLike[str]) -> np.ndarray:
     """Reads the metric at the vertices of a mesh from a Medit file (.sol) or a VTU file with the point data `metric`.
 
     Returns (n, 3) tensors xx, xy, yy. Raises IoError, UsageError for other extensions, InputError for malformed files.
+
+    Examples
+    --------
+    >>> lamina.read_metric("metric.sol").tolist()
+    [[4.0, 0.0, 1.0]]
     """
     return _lamina.read_metric(os.fspath(path))
 
@@ -45,6 +58,13 @@ def remesh(mesh: Mesh, metric: Any, *, divide_borders: bool = False, vertices: f
 
     Raises OptionError for options, InputError for metrics and meshes that are none, MeshError for a mesh without triangles
     beyond the layer.
+
+    Examples
+    --------
+    >>> mesh = lamina.mesh("naca:0012", first_height=1e-3, layers=4)
+    >>> made = lamina.remesh(mesh, np.full(len(mesh.points), 0.5))
+    >>> made.mesh.quality().valid
+    True
     """
     data, tensors, triangles, unit_edges, mean_quality = _lamina.remesh(
         mesh._data, _tensors(metric), divide_borders, vertices, gradation, max_ratio)

@@ -67,6 +67,11 @@ def naca(digits: str, points: int = 200, *, trailing_edge: str = "sharp") -> np.
     (n, 2) coordinates with cosine spacing, from the trailing edge over the upper surface first; the first point is
     repeated at the end. `points` is rounded so that both surfaces get the same number. `trailing_edge` is "sharp",
     "blunt" (the published thickness) or "extended" (that of the NASA Turbulence Modeling Resource).
+
+    Examples
+    --------
+    >>> lamina.naca("0012", points=6).shape
+    (7, 2)
     """
     return _closed(_lamina.naca(str(digits), points, trailing_edge))
 
@@ -76,6 +81,11 @@ def outlines(sections: Sections) -> dict[str, np.ndarray]:
 
     Outlines are (n, 2) coordinates, counter-clockwise; the first point is repeated at the end. Raises InputError and
     IoError.
+
+    Examples
+    --------
+    >>> lamina.outlines("naca:0012")["airfoil"].shape[1]
+    2
     """
     given, names = section_list(sections)
     read = _lamina.outlines(given)

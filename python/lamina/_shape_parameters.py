@@ -17,6 +17,13 @@ class ShapeParameters:
 
     `wall(parameters)` is (n, 2) in the order of MorphMap.wall, `derivative(parameters)` is (n, 2, k); `initial` (k,) gives
     the reference mesh, except for naca_shape().
+
+    Examples
+    --------
+    >>> mesh = lamina.mesh("naca:0012", first_height=1e-3, layers=4)
+    >>> shape = lamina.hinge_shape(lamina.MorphMap(mesh), (0.7, 0))
+    >>> shape.wall(np.array([5.0])).shape[1], shape.initial
+    (2, array([0.]))
     """
 
     def __init__(self, moving: MorphMap, initial: Any, wall: Callable[[np.ndarray], np.ndarray],
@@ -87,6 +94,12 @@ def cst_shape(moving: MorphMap, order: int = 5, *, body: int = 0) -> ShapeParame
     y changes by chord sqrt(x) (1 - x) sum p_i C(order, i) x^i (1 - x)^(order - i), x in chords from the nose. Raises
     InputError for a body that the mesh lacks. Source: B. M. Kulfan, Universal parametric geometry representation method,
     J. Aircraft 45 (2008), equations 1 to 5.
+
+    Examples
+    --------
+    >>> mesh = lamina.mesh("naca:0012", first_height=1e-3, layers=4)
+    >>> len(lamina.cst_shape(lamina.MorphMap(mesh), order=3).initial)
+    8
     """
     def term(i: int) -> Callable[[np.ndarray], np.ndarray]:
         return lambda x: np.sqrt(x) * (1 - x) * comb(order, i) * x**i * (1 - x)**(order - i)
@@ -100,6 +113,13 @@ def hicks_henne_shape(moving: MorphMap, crests: Sequence[float], *, width: float
 
     Parameters are heights in chords; crests are shares of the chord between 0 and 1. Raises InputError for others. Source:
     R. M. Hicks, P. A. Henne, Wing design by numerical optimization, J. Aircraft 15 (1978).
+
+    Examples
+    --------
+    >>> mesh = lamina.mesh("naca:0012", first_height=1e-3, layers=4)
+    >>> shape = lamina.hicks_henne_shape(lamina.MorphMap(mesh), [0.25, 0.5])
+    >>> shape.initial.tolist()
+    [0.0, 0.0, 0.0, 0.0]
     """
     if not all(0 < crest < 1 for crest in crests):
         raise InputError("crests must be between 0 and 1")
@@ -119,6 +139,12 @@ def naca_shape(moving: MorphMap, *, body: int = 0) -> ShapeParameters:
     Vertices keep their x. The camber line is added to the thickness without turning it, so that shapes are smooth functions
     of all three. `initial` has the extent of the body in y, no camber, and its place at 0.4. Source: E. N. Jacobs, K. E.
     Ward, R. M. Pinkerton, NACA report 460 (1933).
+
+    Examples
+    --------
+    >>> mesh = lamina.mesh("naca:0012", first_height=1e-3, layers=4)
+    >>> lamina.naca_shape(lamina.MorphMap(mesh)).initial.round(3).tolist()
+    [0.12, 0.0, 0.4]
     """
     surfaces = _Surfaces(moving, body)
     points, x, chord = moving.wall_points, surfaces.x, surfaces.chord
@@ -151,7 +177,15 @@ def naca_shape(moving: MorphMap, *, body: int = 0) -> ShapeParameters:
 
 
 def hinge_shape(moving: MorphMap, hinge: tuple[float, float], *, body: int = 0) -> ShapeParameters:
-    """Returns a body that turns about a hinge by one parameter: degrees, positive with its trailing edge down."""
+    """Returns a body that turns about a hinge by one parameter: degrees, positive with its trailing edge down.
+
+    Examples
+    --------
+    >>> mesh = lamina.mesh("naca:0012", first_height=1e-3, layers=4)
+    >>> shape = lamina.hinge_shape(lamina.MorphMap(mesh), (0.75, 0))
+    >>> shape.initial.tolist()
+    [0.0]
+    """
     part = _Surfaces(moving, body).part
     points = moving.wall_points
     arm = points[part] - np.asarray(hinge, float)

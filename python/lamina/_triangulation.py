@@ -21,7 +21,15 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class IndexLists(Values, Sequence[np.ndarray]):
-    """Lists of different lengths in one array: list i is `items[starts[i]:starts[i + 1]]`."""
+    """Lists of different lengths in one array: list i is `items[starts[i]:starts[i + 1]]`.
+
+    Examples
+    --------
+    >>> made = lamina.delaunay([[0, 0], [1, 0], [1, 1], [0, 1]])
+    >>> lists = made.half_edges_at_points
+    >>> len(lists), len(lists[0])
+    (4, 2)
+    """
 
     starts: np.ndarray  #: (n + 1,) where the lists begin, and the end of the last one
     items: np.ndarray  #: those of all lists
@@ -40,7 +48,14 @@ class IndexLists(Values, Sequence[np.ndarray]):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class VoronoiDiagram(Values):
-    """A Voronoi diagram. Corners have the indices of the triangles whose centres they are."""
+    """A Voronoi diagram. Corners have the indices of the triangles whose centres they are.
+
+    Examples
+    --------
+    >>> diagram = lamina.delaunay([[0, 0], [2, 0], [1, 2]]).voronoi()
+    >>> diagram.corners.tolist()
+    [[1.0, 0.75]]
+    """
 
     corners: np.ndarray  #: (m, 2)
     cells: IndexLists  #: for each point the corners of its cell, counter-clockwise; those of points on the hull are open
@@ -57,6 +72,14 @@ class Triangulation:
 
     It never changes: its arrays are its own, and cannot be written to. It can be pickled. Two are equal if their arrays
     of points, triangles and segments are.
+
+    Examples
+    --------
+    >>> made = lamina.delaunay([[0, 0], [1, 0], [1, 1], [0, 1]])
+    >>> made
+    <lamina.Triangulation: 4 points, 2 triangles, 0 edges of segments>
+    >>> made.triangles.tolist()
+    [[0, 2, 3], [1, 2, 0]]
     """
 
     points: np.ndarray  #: (n, 2) coordinates
@@ -218,6 +241,11 @@ def delaunay(points: ArrayLike) -> Triangulation:
     points: (n, 2) coordinates, zero or of a magnitude between 1e-60 and 1e60. All decisions are exact, and one rule
     decides between cocircular points, so the set of triangles does not depend on the order of the points. Uses all
     cores from 50,000 points on. Raises InputError for points that appear twice (`error.points` holds their indices).
+
+    Examples
+    --------
+    >>> lamina.delaunay([[0, 0], [1, 0], [0, 1]]).triangles.tolist()
+    [[0, 1, 2]]
     """
     array = points_array(points)
     return Triangulation(array, _lamina.delaunay(array), index_array((), 2, ""), index_array((), 1, ""), len(array))
@@ -235,6 +263,12 @@ def constrained_delaunay(points: ArrayLike, segments: ArrayLike, *, keep: str = 
     merge_distance: points at most this far apart count as one (`merged_into`), 0: equal ones; None: equal points raise
     InputError. drop_flat: with keep="convex_hull", triangles within this share of the length of an edge of the convex
     hull from that edge are dropped, such as 1e-10: rounding makes them of points on straight sides; 0: none is.
+
+    Examples
+    --------
+    >>> made = lamina.constrained_delaunay([[0, 0], [2, 0], [2, 1], [0, 1]], [[0, 2]])
+    >>> made.segments.tolist()
+    [[0, 2]]
     """
     array = points_array(points)
     steiner, triangles, edges, parents, merged_into = _lamina.constrained_delaunay(
@@ -251,6 +285,12 @@ def constrain_triangles(points: ArrayLike, triangles: ArrayLike, segments: Array
     triangles: (m, 3), counter-clockwise; without overlaps. segments: (k, 2) edges of triangles that stay.
     merged_into: that of the triangulation whose triangles these are; segments may then end at points that others stand
     for. Where it is empty, equal points stand for ends that are in no triangle.
+
+    Examples
+    --------
+    >>> made = lamina.constrain_triangles([[0, 0], [1, 0], [1, 1], [0, 1]], [[0, 1, 2], [0, 2, 3]])
+    >>> len(made)
+    2
     """
     array, merged = points_array(points), index_array(merged_into, 1, "merged_into")
     result, edges, parents = _lamina.constrain_triangles(array, index_array(triangles, 3, "triangles"),
@@ -260,7 +300,13 @@ def constrain_triangles(points: ArrayLike, triangles: ArrayLike, segments: Array
 
 def merge_points(points: ArrayLike, distance: float) -> np.ndarray:
     """Returns for each point the index of the one that stands for it: the first one that stands for itself and is at
-    most `distance` away."""
+    most `distance` away.
+
+    Examples
+    --------
+    >>> lamina.merge_points([[0, 0], [1, 0], [0, 1e-9]], 1e-6).tolist()
+    [0, 1, 0]
+    """
     return _lamina.merge_points(points_array(points), float(distance))
 
 
@@ -268,6 +314,12 @@ def ring_segments(rings: Iterable[ArrayLike]) -> tuple[np.ndarray, np.ndarray]:
     """Returns points and segments of closed rings, each an (n, 2) array that may repeat its first point at its end.
 
     Rings that repeat points need `merge_distance` in constrained_delaunay().
+
+    Examples
+    --------
+    >>> points, segments = lamina.ring_segments([[[0, 0], [1, 0], [0, 1]]])
+    >>> segments.tolist()
+    [[0, 1], [1, 2], [2, 0]]
     """
     arrays = [points_array(ring, "ring") for ring in rings]
     starts = np.cumsum([0] + [len(a) for a in arrays])
@@ -311,6 +363,13 @@ def refine(triangulation: Triangulation, size: Any = math.inf, *, gradation: flo
     regions: (x, y, area) for each: a point in a region that segments bound, and its largest area, which replaces `size`
     there; 0: no bound but `max_area`, which holds in all regions. `regions` of the result says which triangle lies in which.
     conforming: segments are split until all triangles are Delaunay, and not only constrained Delaunay.
+
+    Examples
+    --------
+    >>> square = lamina.constrained_delaunay([[0, 0], [1, 0], [1, 1], [0, 1]], [[0, 1], [1, 2], [2, 3], [3, 0]])
+    >>> fine = lamina.refine(square, 0.1)
+    >>> len(fine) > 100
+    True
     """
     t = triangulation
     bounds_areas = max_area is not None or any(area > 0 for _, _, area in regions)
