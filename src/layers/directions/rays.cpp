@@ -12,28 +12,6 @@
 
 namespace lamina::layers {
 
-// Origins on an edge, and directions at even angles from its normal.
-
-IntermediateRays::IntermediateRays(const RayLine& first, const RayLine& last)
-    : from_(first.origin),
-      to_(last.origin),
-      normal_(-perpendicular(unit(to_ - from_))),
-      first_least_height_(first.least_height),
-      last_least_height_(last.least_height) {
-    // Rays stay within 90 degrees of the edge's normal, so that the difference of the two angles needs no wrapping.
-    first_angle_ = core::angle_between(normal_, first.direction);
-    last_angle_ = core::angle_between(normal_, last.direction);
-}
-
-void IntermediateRays::add(double part, double whole, std::vector<RayLine>& rays) const {
-    const double rest = whole - part;
-    const Point origin{(rest * from_.x + part * to_.x) / whole, (rest * from_.y + part * to_.y) / whole};
-    if (origin == rays.back().origin || origin == to_ || origin == from_) return;
-    rays.push_back({.origin = origin,
-                    .direction = unit(core::rotated(normal_, (rest * first_angle_ + part * last_angle_) / whole)),
-                    .least_height = (rest * first_least_height_ + part * last_least_height_) / whole});
-}
-
 namespace {
 
 /// Slack on the number of parts of an angle, so that an angle of exactly the limit is not divided.
@@ -99,10 +77,22 @@ void add_vertex_rays(const RayVertex& at, const WallVertex& vertex, double max_a
 /// (docs/layer.md). Rays are added there only where a column opens widely, none where rays converge.
 void add_refining_rays(const RayLine& first, const RayLine& last, double max_angle, const OutlineRules& rules,
                        std::vector<RayLine>& rays) {
-    const IntermediateRays between(first, last);
-    if (!rules.refine_converging && between.angle() <= 0) return;
-    const std::size_t parts = angle_parts(between.angle(), max_angle);
-    for (std::size_t k = 1; k < parts; ++k) between.add(static_cast<double>(k), static_cast<double>(parts), rays);
+    const Point from = first.origin, to = last.origin, normal = -perpendicular(unit(to - from));
+    // Rays stay within 90 degrees of the edge's normal, so that the difference of the two angles needs no wrapping.
+    const double first_angle = core::angle_between(normal, first.direction),
+                 last_angle = core::angle_between(normal, last.direction);
+    if (!rules.refine_converging && last_angle <= first_angle) return;
+    const std::size_t parts = angle_parts(last_angle - first_angle, max_angle);
+    for (std::size_t k = 1; k < parts; ++k) {
+        const double part = static_cast<double>(k), whole = static_cast<double>(parts), rest = whole - part;
+        const auto between = [&](double a, double b) { return (rest * a + part * b) / whole; };
+        const Point origin{between(from.x, to.x), between(from.y, to.y)};
+        // The edge may be too short to be divided in floating point.
+        if (origin == rays.back().origin || origin == to || origin == from) continue;
+        rays.push_back({.origin = origin,
+                        .direction = unit(core::rotated(normal, between(first_angle, last_angle))),
+                        .least_height = between(first.least_height, last.least_height)});
+    }
 }
 
 }  // namespace
