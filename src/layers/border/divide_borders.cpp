@@ -18,7 +18,7 @@
 namespace lamina::layers {
 
 // Target lengths as the minimum over cones, one round each source, of a slope of the gradation. A tree over the
-// sources finds the minimum at a point; along an edge the target is assembled from rises and plateaus.
+// sources finds the minimum at a point.
 
 // The edges of closed polygons in one list, with the indices of their neighbours: of fronts that are to be divided, and of
 // walls.
@@ -75,43 +75,8 @@ public:
     TargetLength(std::span<const PolygonEdge> edges, const BorderOptions& options)
         : edges_(edges),
           gradation_(std::min(options.gradation, 1 - 1 / options.max_ratio) / alike),
-          max_target_(options.max_edge / alike),
-          tree_({}),
-          at_start_(edges.size(), max_target_) {
-        add_sources(options);
-        find_targets_at_starts();
-    }
-
-    /// Returns the target along an edge as a step function that does not depend on the direction of the edge.
-    std::vector<TargetInterval> along(std::size_t edge) const {
-        const PolygonEdge& e = edges_[edge];
-        std::vector<TargetInterval> intervals;
-        add_intervals({e.a, at_start_[edge]}, {e.b, at_start_[e.next]}, e.length, std::min(e.length, max_target_),
-                      intervals);
-        return intervals;
-    }
-
-private:
-    /// An end of a stretch of an edge.
-    struct End {
-        Point at;
-        double target;
-    };
-
-    std::span<const PolygonEdge> edges_;
-    double gradation_, max_target_;
-    std::vector<SizeSource> sources_;           ///< of the edges, then of the options
-    core::BoxTree tree_;                        ///< over the sources
-    std::vector<std::vector<double>> targets_;  ///< of the sources, grouped for the search in the tree
-    std::vector<double> at_start_;              ///< target at the start of each edge
-
-    void add_sources(const BorderOptions& options) {
-        for (std::size_t i = 0; i < edges_.size(); ++i) {
-            const PolygonEdge& edge = edges_[i];
-            sources_.push_back({edge.a, edge.b, edge.requested});
-            at_start_[i] = std::min(at_start_[i], edge.requested);
-            at_start_[edge.next] = std::min(at_start_[edge.next], edge.requested);
-        }
+          max_target_(options.max_edge / alike) {
+        for (const PolygonEdge& edge : edges_) sources_.push_back({edge.a, edge.b, edge.requested});
         for (SizeSource source : options.sources) {
             source.size /= alike;
             sources_.push_back(source);
@@ -128,68 +93,33 @@ private:
         targets_ = tree_.group_minima(std::move(targets));
     }
 
-    void find_targets_at_starts() {
-        const auto pass_on = [&](std::size_t edge, std::size_t from, std::size_t to) {
-            at_start_[to] = std::min(at_start_[to], at_start_[from] + gradation_ * edges_[edge].length);
-        };
-        // Targets are passed on along the fronts first: good bounds make the searches in the tree short.
-        for (int round = 0; round < 2; ++round) {
-            for (std::size_t i = 0; i < edges_.size(); ++i) pass_on(i, i, edges_[i].next);
-            for (std::size_t i = edges_.size(); i-- > 0;) pass_on(i, edges_[i].next, i);
-        }
-        for (std::size_t i = 0; i < edges_.size(); ++i) at_start_[i] = at(edges_[i].a, at_start_[i]);
+    /// Returns the target along an edge as a step function that does not depend on the direction of the edge.
+    std::vector<TargetInterval> along(std::size_t edge) const {
+        const PolygonEdge& e = edges_[edge];
+        std::vector<TargetInterval> intervals;
+        add_intervals(e.a, e.b, e.length, std::min(e.length, max_target_), intervals);
+        return intervals;
     }
 
-    /// Returns the target at p, or `upper_bound` if that is less.
-    double at(Point p, double upper_bound) const {
-        return tree_.minimum(p, gradation_, upper_bound, targets_,
-                             [&](std::size_t i) { return distance_to(sources_[i], p); });
-    }
+private:
+    std::span<const PolygonEdge> edges_;
+    double gradation_, max_target_;
+    std::vector<SizeSource> sources_;           ///< of the edges, then of the options
+    core::BoxTree tree_{{}};                    ///< over the sources
+    std::vector<std::vector<double>> targets_;  ///< of the sources, grouped for the search in the tree
 
-    /// Adds the intervals between two points of an edge. The target rises from both ends until the rises meet or reach
-    /// `cap`, unless something near the middle requests less. In that case the stretch is halved until the middle agrees.
-    ///
-    ///              cap ____________
-    ///                 /            \          target
-    ///                /              \ .
-    ///      target_a /                \ target_b
-    ///              a ---------------- b
-    void add_intervals(const End& a, const End& b, double length, double cap,
-                       std::vector<TargetInterval>& intervals) const {
-        const double min_target = std::min(a.target, b.target);
-        const double expected = std::min(cap, min_target + gradation_ * 0.5 * length);
-        if (length > 2 * min_target) {
-            const Point middle = midpoint(a.at, b.at);
-            const double target = at(middle, expected);
-            if (target < 0.9 * expected || length > 64 * min_target) {
-                add_intervals(a, {middle, target}, 0.5 * length, cap, intervals);
-                add_intervals({middle, target}, b, 0.5 * length, cap, intervals);
-                return;
-            }
+    /// Adds the intervals between two points of an edge, which is halved until its parts are short beside the target in their
+    /// middles, which is at most `cap`.
+    void add_intervals(Point a, Point b, double length, double cap, std::vector<TargetInterval>& intervals) const {
+        const Point middle = midpoint(a, b);
+        const double target = tree_.minimum(middle, gradation_, cap, targets_,
+                                            [&](std::size_t i) { return distance_to(sources_[i], middle); });
+        if (length <= interval_share * target) {
+            intervals.push_back({length, target});
+            return;
         }
-        // The two rises would meet at this distance from a.
-        const double peak = std::clamp(0.5 * (length + (b.target - a.target) / gradation_), 0.0, length);
-        const double rise_a = std::min(peak, std::max(0.0, (cap - a.target) / gradation_));
-        const double rise_b = std::min(length - peak, std::max(0.0, (cap - b.target) / gradation_));
-        add_rise(a.target, rise_a, intervals);
-        const double plateau = length - rise_a - rise_b;
-        if (plateau > 0) {
-            const double n = std::ceil(plateau / (interval_share * cap));
-            intervals.insert(intervals.end(), static_cast<std::size_t>(n), {plateau / n, cap});
-        }
-        const auto from = static_cast<std::ptrdiff_t>(intervals.size());
-        add_rise(b.target, rise_b, intervals);
-        std::reverse(intervals.begin() + from, intervals.end());
-    }
-
-    /// Adds intervals of this total length, on which the target rises from `target` by the gradation.
-    void add_rise(double target, double length, std::vector<TargetInterval>& intervals) const {
-        for (double done = 0; done < length;) {
-            const double step = std::min(interval_share * (target + gradation_ * done), length - done);
-            intervals.push_back({step, target + gradation_ * (done + 0.5 * step)});
-            if (done + step == done) break;
-            done += step;
-        }
+        add_intervals(a, middle, 0.5 * length, cap, intervals);
+        add_intervals(middle, b, 0.5 * length, cap, intervals);
     }
 };
 
@@ -242,19 +172,8 @@ public:
         double first, last;
     };
     EndParts end_parts() const {
-        if (parts_ == 1) return {length_, length_};
-        const double part = excess_ / static_cast<double>(parts_);
-        const auto advance = [part](auto begin, auto end) {
-            double distance = 0, sum = 0;
-            for (auto it = begin; it != end; ++it) {
-                const double share = it->length / it->target;
-                if (sum + share >= part) return distance + (part - sum) * it->target;
-                sum += share;
-                distance += it->length;
-            }
-            return distance;
-        };
-        return {advance(target_.begin(), target_.end()), advance(target_.rbegin(), target_.rend())};
+        const std::vector<double> points = division_points();
+        return points.empty() ? EndParts{length_, length_} : EndParts{points.front(), length_ - points.back()};
     }
 
 private:
