@@ -74,8 +74,8 @@ enum class GridCells {
 /// the two have one origin. A cell on the outer border, where division points lie on its top, is cut into triangles
 /// that fan from its lower corners; a divided triangle above a column is cut together with the cell below it.
 ///
-/// Between cuts, and between the two diagonals of a cell, the angles decide: the largest one must be as small as
-/// possible, and then the others (StripCutter::cut()). Where cuts are equal, the lower corner on the ray of the
+/// Between cuts, and between the two diagonals of a cell, the angles decide, the largest ones before all
+/// (StripCutter::cut()). Where cuts are equal, the lower corner on the ray of the
 /// lexicographically smaller origin gets the diagonal or the larger fan; if both rays have one origin, the smaller
 /// direction decides. Every cell is positive (exact), and its corners lie on two neighbouring layers.
 ///

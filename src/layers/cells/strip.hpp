@@ -24,35 +24,29 @@ class StripCutter {
 public:
     explicit StripCutter(std::span<const Point> points) : points_(points) {}
 
-    /// Adds the triangles of the best cut, counter-clockwise, from the first side to the last. In the best cut the
-    /// largest angle of all triangles is smallest; among cuts with that angle, the sum of 1 / (1 + cos) of the largest
-    /// angles is smallest. Angles whose cosines differ by less than 1e-6, which is more than rounding, count as equal.
-    /// Where cuts are equal, `first_leads` prefers a large fan from the lower corner of the first side, otherwise from
-    /// that of the last. Returns false, and adds nothing, where every cut has a triangle that is not positive (exact).
-    /// Precondition: each chain has a corner or more, and both together three or more.
+    /// Adds the triangles of the best cut, counter-clockwise, from the first side to the last: the sum of 1 / (1 + cos)^4 of the
+    /// largest angles of all triangles is smallest, which the largest angle of all decides where one is much larger than
+    /// others. Sums that differ by less than a millionth, which is more than rounding, count as equal. Where cuts are equal,
+    /// `first_leads` prefers a large fan from the lower corner of the first side, otherwise from that of the last. Returns
+    /// false, and adds nothing, where every cut has a triangle that is not positive (exact). Precondition: each chain has a
+    /// corner or more, and both together three or more.
     bool cut(std::span<const VertexId> lower, std::span<const VertexId> upper, bool first_leads,
              std::vector<Triangle>& triangles);
 
 private:
-    /// A corner of each chain, joined by an edge: the state of a cut between the first side and the last.
+    /// A corner of each chain, joined by an edge: the state of a cut between the first side and the last. Its burdens are the
+    /// least possible sums over the triangles from here, if the next one stands on the upper or the lower chain.
     struct CutState {
-        /// Cosines of the largest angles of the triangles on the next edge of each chain.
-        double upper_cosine = -2, lower_cosine = -2;
-        double min_cosine = -2;    ///< largest possible smallest cosine of the triangles up to here
-        double burden = HUGE_VAL;  ///< least possible sum of 1 / (1 + cos) over the triangles from here
+        double via_upper = HUGE_VAL, via_lower = HUGE_VAL;
+        double burden = HUGE_VAL;  ///< the smaller one
     };
 
     std::span<const Point> points_;
     std::span<const VertexId> lower_, upper_;
     std::vector<CutState> states_;  ///< for each corner of the lower chain, all corners of the upper one
-    double min_cosine_ = 0;         ///< triangles with a smaller cosine are not part of the best cut
 
     CutState& state(std::size_t i, std::size_t j) { return states_[i * upper_.size() + j]; }
-    const CutState& state(std::size_t i, std::size_t j) const { return states_[i * upper_.size() + j]; }
-    double find_min_cosine();
     void find_burdens();
-    double burden_via_upper(std::size_t i, std::size_t j) const;
-    double burden_via_lower(std::size_t i, std::size_t j) const;
 };
 
 }  // namespace lamina::layers
