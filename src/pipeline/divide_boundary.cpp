@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstdint>
 #include <map>
 #include <numeric>
@@ -68,6 +69,7 @@ void set_cells(std::vector<Cell> cells, MeshResult& result) {
 ///      |      |          | \ \/ |            /   \         / | \           .
 ///      a ---- b          a--v-w-b           a --- b       a--v--b
 void divide_cell(std::size_t cell, std::size_t i, std::span<const VertexId> between, std::vector<Cell>& cells) {
+    assert(!between.empty() && i < cells[cell].corners);
     const Cell given = cells[cell];
     const VertexId a = given.at(i), b = given.at(i + 1), c = given.at(i + 2),
                    apex = given.at(i + given.corners - 1);  // c, or d of a quad
@@ -108,13 +110,16 @@ void divide_boundary(std::span<const DividedEdge> edges, MeshResult& result) {
         }
     std::vector<Cell> cells = cells_of(result);
     // Parts of a cell follow behind all others, so that each of its edges is looked at again.
+    [[maybe_unused]] std::size_t met = 0;
     for (std::size_t cell = 0; cell < cells.size(); ++cell)
         for (std::size_t i = 0; i < cells[cell].corners; ++i) {
             const auto found = between.find({cells[cell].at(i), cells[cell].at(i + 1)});
             if (found == between.end()) continue;
             divide_cell(cell, i, found->second, cells);
+            ++met;
             i = 0;  // of the part in its place, whose first edge is no longer one of these
         }
+    assert(met == between.size() && "each edge is on the boundary, and so of one cell");
     set_cells(std::move(cells), result);
     for (Marker& marker : result.mesh.markers) divide_in(marker.edges, between);
 }
