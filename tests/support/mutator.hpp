@@ -7,6 +7,10 @@
 #include <utility>
 #include <vector>
 
+#include <gtest/gtest.h>
+
+#include <lamina/error.hpp>
+
 namespace lamina::test {
 
 /// Damages a text at one to four random places.
@@ -53,5 +57,27 @@ private:
         }
     }
 };
+
+/// Calls read() with this many damaged texts. Expects it to refuse bad input in one line, and to take and to refuse a
+/// twentieth of the texts at least.
+template <class Read>
+void expect_taken_or_refused(Mutator mutate, const std::vector<std::string>& seeds, std::size_t cases,
+                             const Read& read) {
+    std::size_t taken = 0, refused = 0;
+    for (std::size_t i = 0; i < cases; ++i) {
+        const std::string text = mutate(seeds[i % seeds.size()]);
+        try {
+            read(text);
+            if (testing::Test::HasFatalFailure()) return;
+            ++taken;
+        } catch (const Error& e) {
+            ASSERT_EQ(e.exit_code(), ExitCode::bad_input) << e.what();
+            ASSERT_EQ(std::string(e.what()).find('\n'), std::string::npos) << e.what();
+            ++refused;
+        }
+    }
+    EXPECT_GT(taken, cases / 20);
+    EXPECT_GT(refused, cases / 20);
+}
 
 }  // namespace lamina::test
