@@ -278,11 +278,12 @@ TEST(Batch, ResumingMakesFilesAnewThatHaveChanged) {
 
 TEST(Batch, LinesOfAJournalThatAreNoRecordsDoNotCount) {
     const TemporaryFolder folder;
-    const std::vector<std::string> arguments{"naca:0012", "-o", "m.su2"};
+    const std::vector<std::string> arguments{"naca:0012:40", "--no-layers", "--far-field", "5",
+                                             "--gradation",  "0.5",         "-o",          "m.su2"};
     ASSERT_EQ(run_batch(folder, arguments).exit_code, 0);
     const Json record = Json::parse(folder.read("summary.jsonl"));
     const auto hash = record["hash"];
-    std::vector<Json> wrong{Json::array(), 5, "text", nullptr, {{"job", 5}}, {{"job", "naca_0012"}}};
+    std::vector<Json> wrong{Json::array(), 5, "text", nullptr, {{"job", 5}}, {{"job", record["job"]}}};
     for (const auto& [key, value] : record.items())
         for (const Json& other : {Json(nullptr), Json(5), Json("x"), Json::array({1}), Json{{"a", "b"}}, Json(-1.5)}) {
             Json line = record;
