@@ -1,14 +1,16 @@
 #include "geometry/symmetry.hpp"
-#include "geometry/unite.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "core/bounding_box.hpp"
+#include "geometry/sheets.hpp"
+#include "geometry/unite.hpp"
 
 namespace lamina::geometry {
 
@@ -128,6 +130,30 @@ void require_body(const Element& element, const Part& part, double y) {
                         first.x, y));
 }
 
+/// Throws InputError for sheets of an element that are not above the line.
+void require_sheets_above(const Element& element, double y) {
+    const std::size_t n = element.points.size();
+    for (const SheetRange& range : sheet_ranges(element))
+        for (std::size_t i = range.first; i <= range.last; ++i)
+            if (const Point p = element.points[i % n]; !(p.y > y))
+                refuse(element, p,
+                       "has a sheet that the line of symmetry meets: end it above, or give the whole configuration "
+                       "without the line");
+}
+
+/// Returns the sheets on a part of an outline, and their images.
+std::vector<SheetSides> sheets_on(const Part& part, std::span<const SheetSides> sheets, double y) {
+    std::vector<SheetSides> result;
+    for (const SheetSides& sheet : sheets)
+        if (std::any_of(part.begin(), part.end(), [&](const PartPoint& p) { return p.at == sheet.tip; }))
+            result.push_back(sheet);
+    for (std::size_t k = result.size(); k-- > 0;) {
+        const SheetSides& above = result[k];
+        result.push_back({above.name, image_of(above.end, y), image_of(above.tip, y), image_of(above.begin, y)});
+    }
+    return result;
+}
+
 /// Adds what is above the line of an element.
 void add_above(const Element& element, double y, std::vector<Element>& result) {
     const Part points = points_of(element, y);
@@ -136,10 +162,7 @@ void add_above(const Element& element, double y, std::vector<Element>& result) {
         result.push_back(element);
         return;
     }
-    if (!element.sheets.empty())
-        refuse(
-            element, element.sheets.front().tip,
-            "is a sheet, or has one, and the line of symmetry cuts it: give the whole configuration without the line");
+    require_sheets_above(element, y);
     const std::vector<Part> parts = parts_above(points, y);
     if (parts.empty())
         refuse(element, element.points.front(),
@@ -150,6 +173,7 @@ void add_above(const Element& element, double y, std::vector<Element>& result) {
         require_body(element, parts[k], y);
         Element& part = result.emplace_back(element);
         set_outline(part, parts[k], y);
+        part.sheets = sheets_on(parts[k], element.sheets, y);
         if (k == 0) continue;
         part.name += fmt::format("_{}", k + 1);
         for (WallPart& wall : part.parts) wall.name += fmt::format("_{}", k + 1);

@@ -147,8 +147,11 @@ void close_sheets(MeshResult& result) {
     for (std::size_t e = 0; e < result.geometry.elements.size(); ++e) {
         const Element element = result.geometry.elements[e];
         const std::vector<geometry::SheetRange> ranges = geometry::sheet_ranges(element);
+        const auto is_shown = [&](const SheetSides& sheet) {
+            return !element.is_mirrored || sheet.tip.y > *result.geometry.symmetry;
+        };
         for (std::size_t k = 0; k < ranges.size(); ++k)
-            if (!close_sheet(element, element.sheets[k], ranges[k], result))
+            if (is_shown(element.sheets[k]) && !close_sheet(element, element.sheets[k], ranges[k], result))
                 result.geometry.elements[e].surface_notes.push_back(
                     fmt::format("the sides of {} have different vertices, and stay {:.2g} apart",
                                 element.sheets[k].name, geometry::sheet_gap(element.points)));

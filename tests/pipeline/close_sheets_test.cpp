@@ -71,6 +71,23 @@ TEST(CloseSheets, StripsAreMarkersOnTheWallsOfBodies) {
     EXPECT_EQ(mesh_hash(generate_mesh({"naca:0012"}, options).mesh), mesh_hash(result.mesh));
 }
 
+TEST(CloseSheets, MayStandOnHalvesOfBodies) {
+    for (const bool with_layers : {true, false}) {
+        CaseOptions options =
+            options_with_sheets({{"fence", {{0.4, 0}, {0.4, 0.1}, {0.45, 0.2}}}, {"vane", {{0.2, 0.4}, {0.8, 0.4}}}});
+        options.far_field.symmetry = 0;
+        options.layer.enabled = with_layers;
+        const MeshResult result = generate_mesh({"naca:0020"}, options);
+        for (const char* name : {"fence", "vane"}) expect_closed(result, name);
+        for (const Point p : result.mesh.points) EXPECT_GE(p.y, 0);
+    }
+    CaseOptions options = options_with_sheets({{"strip", {{0.4, 0.2}, {0.4, -0.2}}}});
+    options.far_field.symmetry = 0;
+    EXPECT_THROW(generate_mesh({"naca:0020"}, options), InputError);
+    options.geometry.sheets = {{"plate", {{1.5, 0}, {2, 0}}}};
+    EXPECT_THROW(generate_mesh({"naca:0020"}, options), InputError);
+}
+
 TEST(CloseSheets, TheFlowDecidesOnBothSides) {
     CaseOptions options = options_with_sheets({{"sail", {{0, 0}, {0.3, 0.06}, {0.6, 0.07}, {1, 0}}}});
     options.layer = {};
