@@ -3,9 +3,20 @@
 #include <algorithm>
 
 #include "core/parallel.hpp"
+#include "mesh/adjacency.hpp"
 #include "mesh/cell_middle.hpp"
 
 namespace lamina::adaptation {
+
+std::vector<double> cell_values(const Mesh& mesh, const SolutionField& field) {
+    if (field.at_cells) return field.values;
+    const mesh::CellEdges cells(mesh);
+    std::vector<double> means(cells.cells(), 0.0);
+    for (std::size_t cell = 0; cell < means.size(); ++cell)
+        for (std::size_t i = 0; i < cells.corners(cell); ++i)
+            means[cell] += field.values[cells.corner(cell, i).index()] / static_cast<double>(cells.corners(cell));
+    return means;
+}
 
 std::vector<Point> cell_middles(const Mesh& mesh) {
     std::vector<Point> middles;

@@ -7,10 +7,14 @@
 #include <vector>
 
 #include <lamina/mesh.hpp>
+#include <lamina/solution.hpp>
 
 #include "adaptation/vertex_patches.hpp"
 
 namespace lamina::adaptation {
+
+/// Returns the values in the cells: those given, or means over the corners.
+std::vector<double> cell_values(const Mesh& mesh, const SolutionField& field);
 
 /// Returns the middles of all cells.
 std::vector<Point> cell_middles(const Mesh& mesh);

@@ -9,7 +9,6 @@
 
 #include "adaptation/cell_gradients.hpp"
 #include "adaptation/vertex_patches.hpp"
-#include "mesh/adjacency.hpp"
 
 namespace lamina::adaptation {
 
@@ -60,23 +59,14 @@ struct GoalCells {
     std::vector<Point> of_u, of_v, of_p;  ///< gradients of the adjoint
 };
 
-/// Returns the values in the cells: those given, or means over the corners.
-std::vector<double> in_cells(const Mesh& mesh, const SolutionField& field) {
-    if (field.at_cells) return field.values;
-    const mesh::CellEdges cells(mesh);
-    std::vector<double> means(cells.cells(), 0.0);
-    for (std::size_t cell = 0; cell < means.size(); ++cell)
-        for (std::size_t i = 0; i < cells.corners(cell); ++i)
-            means[cell] += field.values[cells.corner(cell, i).index()] / static_cast<double>(cells.corners(cell));
-    return means;
-}
-
 GoalCells goal_cells(const Mesh& mesh, const FlowAndAdjoint& flow) {
     const CellReconstruction reconstruction(mesh);
-    const auto gradients = [&](const SolutionField& field) { return reconstruction.gradients(in_cells(mesh, field)); };
+    const auto gradients = [&](const SolutionField& field) {
+        return reconstruction.gradients(cell_values(mesh, field));
+    };
     GoalCells cells{
-        {}, in_cells(mesh, flow.p), gradients(flow.adjoint_u), gradients(flow.adjoint_v), gradients(flow.adjoint_p)};
-    const std::vector<double> u = in_cells(mesh, flow.u), v = in_cells(mesh, flow.v);
+        {}, cell_values(mesh, flow.p), gradients(flow.adjoint_u), gradients(flow.adjoint_v), gradients(flow.adjoint_p)};
+    const std::vector<double> u = cell_values(mesh, flow.u), v = cell_values(mesh, flow.v);
     for (std::size_t cell = 0; cell < u.size(); ++cell) cells.velocity.push_back({u[cell], v[cell]});
     return cells;
 }

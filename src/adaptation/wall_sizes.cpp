@@ -3,25 +3,26 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adaptation/cell_gradients.hpp"
 #include "core/reproducible_math.hpp"
-#include "mesh/adjacency.hpp"
 
 namespace lamina::adaptation {
 
 namespace {
 
+/// Returns the roots of means over three edges.
+EdgeValues roots_of_means(const WallFlow& wall, const EdgeValues& squares) {
+    EdgeValues roots = means_of_three(wall, squares);
+    for (double& root : roots) root = std::sqrt(root);
+    return roots;
+}
+
 /// A field above the edges of a wall, in the cells of the layer.
 class ColumnValues {
 public:
-    ColumnValues(const Mesh& mesh, const SolutionField& field) : field_(field), cells_(mesh) {}
+    ColumnValues(const Mesh& mesh, const SolutionField& field) : values_(cell_values(mesh, field)) {}
 
-    /// Returns the value in a cell: that given, or the mean over its corners.
-    double in_cell(std::size_t cell) const {
-        if (field_.at_cells) return field_.values[cell];
-        double sum = 0;
-        for (std::size_t i = 0; i < cells_.corners(cell); ++i) sum += field_.values[cells_.corner(cell, i).index()];
-        return sum / static_cast<double>(cells_.corners(cell));
-    }
+    double in_cell(std::size_t cell) const { return values_[cell]; }
     /// Returns the value at this distance from the wall, linear between the middles of cells and constant beyond them. Middles
     /// rise from `row` on, which is moved to the last one below.
     double at_height(const WallFlowEdge& edge, double height, std::size_t& row) const {
@@ -34,13 +35,12 @@ public:
     }
 
 private:
-    const SolutionField& field_;
-    mesh::CellEdges cells_;
+    std::vector<double> values_;
 };
 
 /// Returns the second derivatives of a field along a wall, each the mean over the column of the edge in the p-norm: the
 /// error of the column is that of a second derivative which is the same at all heights. They are roots of mean squares over
-/// three edges.
+/// three edges, too.
 EdgeValues column_curvatures(const WallFlow& wall, const ColumnValues& values, double p) {
     EdgeValues squares(wall.size(), 0.0);
     for (std::size_t i = 0; i < wall.size(); ++i) {
@@ -58,9 +58,7 @@ EdgeValues column_curvatures(const WallFlow& wall, const ColumnValues& values, d
         }
         if (sum > 0) squares[i] = core::pow_reproducible(sum / bottom, 2 / p);
     }
-    EdgeValues roots = means_of_three(wall, squares);
-    for (double& root : roots) root = std::sqrt(root);
-    return roots;
+    return roots_of_means(wall, squares);
 }
 
 /// Returns the second derivatives of values along a wall: roots of mean squares over three edges.
@@ -71,9 +69,7 @@ EdgeValues curvatures(const WallFlow& wall, const EdgeValues& values) {
         const double second = beside.second_derivative(values[beside.before], values[i], values[beside.after]);
         squares[i] = second * second;
     }
-    EdgeValues roots = means_of_three(wall, squares);
-    for (double& root : roots) root = std::sqrt(root);
-    return roots;
+    return roots_of_means(wall, squares);
 }
 
 /// Returns the spacing that this second derivative asks for with factor 1; it is infinite where there is no layer.
