@@ -145,5 +145,7 @@ struct MorphReport {
 
 /// Measures both meshes. Throws InputError for another number of points.
 LAMINA_EXPORT MorphReport compare_morphed(const MorphMap& map, std::span<const Point> points);
+/// Measures both meshes, of which the latter may have other cells between the same vertices.
+LAMINA_EXPORT MorphReport compare_morphed(const MorphMap& map, const Mesh& morphed);
 
 }  // namespace lamina

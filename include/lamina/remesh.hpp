@@ -65,6 +65,11 @@ struct RemeshedMesh {
 LAMINA_EXPORT RemeshedMesh remesh(const MeshView& mesh, std::span<const MetricTensor> metric,
                                   const RemeshOptions& options = {});
 
+/// Returns the mesh with diagonals of its triangles beyond the layer swapped, and vertices between them moved, where this lowers
+/// the sum of distortions: inverse mean ratios, with edges as long as they are round each vertex. No vertex comes, goes or gets
+/// another number. Preconditions: those of remesh(). Source: L. A. Freitag, C. Ollivier-Gooch, Int. J. Numer. Methods Eng. 40 (1997).
+LAMINA_EXPORT Mesh reconnect(const MeshView& mesh);
+
 /// Returns the number of vertices that a metric asks for beyond the layer: 2 / sqrt(3) times its complexity, which
 /// is the integral of the square root of its determinant. Source: A. Loseille, F. Alauzet, SIAM J. Numer. Anal. 49 (2011).
 LAMINA_EXPORT double vertices_of_metric(const MeshView& mesh, std::span<const MetricTensor> metric);

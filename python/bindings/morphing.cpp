@@ -15,6 +15,7 @@
 
 #include <lamina/error.hpp>
 #include <lamina/morph.hpp>
+#include <lamina/remesh.hpp>
 
 #include "arrays.hpp"
 #include "bindings.hpp"
@@ -60,12 +61,13 @@ public:
     }
 
     /// Returns the mesh, the fraction of the motion that was made, the number of maps that made it, and the text of the cell that stops it.
-    nb::tuple morph(const PointsArgument& wall, bool as_far_as_possible, bool incremental) const {
+    nb::tuple morph(const PointsArgument& wall, bool as_far_as_possible, bool incremental, bool reconnects) const {
         MorphResult result;
         const std::vector<Point> at = at_walls(wall);
         run_unlocked([&] { result = lamina::morph(*map_, at, {as_far_as_possible, incremental}); });
         Mesh morphed = *mesh_;
         morphed.points = std::move(result.points);
+        if (reconnects) run_unlocked([&] { morphed = reconnect(morphed); });
         return nb::make_tuple(shared(std::move(morphed)), result.fraction, result.maps,
                               result.stop ? result.stop->description : std::string());
     }
@@ -73,7 +75,7 @@ public:
     nb::dict compare(const SharedMesh& morphed) const {
         require_rows((*morphed).points.size(), (*mesh_).points.size(), "vertices of the mesh");
         MorphReport report;
-        run_unlocked([&] { report = compare_morphed(*map_, (*morphed).points); });
+        run_unlocked([&] { report = compare_morphed(*map_, *morphed); });
         nb::dict facts;
         facts["max_first_height_change"] = report.max_first_height_change;
         for (const auto& [name, quality] : {std::pair{"before", report.before}, {"after", report.after}}) {

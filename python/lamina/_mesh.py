@@ -396,19 +396,20 @@ class Mesh:
         return MeshCheck._from(self._data.check(bound, first_height))
 
     def morph(self, to: Sections | None = None, *, transform: str | Sequence[str] = (), displacements: Any = None,
-              as_far_as_possible: bool = False, incremental: bool = False) -> Mesh:
+              as_far_as_possible: bool = False, incremental: bool = False, reconnect: bool = False) -> Mesh:
         """Returns the same cells round other shapes of the bodies; the outer boundary stays.
 
         One of these says where the walls go: `to`, sections in the order of the bodies, whose arc lengths between corners
         are divided as those of the mesh; `transform`, changes as those of `lamina.mesh()`, such as
         "flap:rotate:-5:0.8,0"; `displacements`, (n, 2) in the order of `wall.vertex`. `facts` of the result compare both
         meshes. Raises InputError, and MeshError where a cell would turn over on the way, unless `as_far_as_possible`;
-        `incremental` goes on in further steps there.
+        `incremental` goes on in further steps there. `reconnect` then makes the cells beyond the layer better, which are no
+        longer the same.
         `lamina.MorphMap` keeps the factors for many shapes, and has the derivative.
         """
         from ._morph import morph
 
-        return morph(self, to, transform, displacements, as_far_as_possible, incremental)
+        return morph(self, to, transform, displacements, as_far_as_possible, incremental, reconnect)
 
     def write(self, path: str | os.PathLike[str], *, format: str = "", wall_distance: bool = False, span: float = 0,
               span_cells: int = 1, span_ends: Literal["symmetry", "periodic"] = "symmetry") -> None:

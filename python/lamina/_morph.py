@@ -54,14 +54,16 @@ class MorphMap:
         """Returns the wall points with bodies changed, as `transform` of `lamina.mesh()` does: "flap:rotate:-5:0.8,0"."""
         return self._map.walls_moved(list(changes))
 
-    def morph(self, wall: Any, *, as_far_as_possible: bool = False, incremental: bool = False) -> Mesh:
-        """Returns the mesh with its wall vertices at these points.
+    def morph(self, wall: Any, *, as_far_as_possible: bool = False, incremental: bool = False,
+              reconnect: bool = False) -> Mesh:
+        """Returns the mesh with its wall vertices at these points; with `reconnect` other cells beyond the layer, where these
+        are better, between the same vertices.
 
         Raises MeshError, which names the cell, where a cell would turn over on the way; with `as_far_as_possible` the
         mesh goes as far as it can, and `facts["fraction"]` says how far. With `incremental` the motion goes on from a mesh
         half as far, by a map of that mesh; with more than one of `facts["maps"]` the derivative is not that of the result.
         """
-        data, fraction, maps, stopped_by = self._map.morph(points_array(wall, "wall"), as_far_as_possible, incremental)
+        data, fraction, maps, stopped_by = self._map.morph(points_array(wall, "wall"), as_far_as_possible, incremental, reconnect)
         facts = {"fraction": fraction, "maps": maps, **({"stopped_by": stopped_by} if stopped_by else {}), **self._map.compare(data)}
         return Mesh._from(data, facts=facts, columns=self.mesh._columns)
 
@@ -71,7 +73,7 @@ class MorphMap:
         points, errors = [], []
         for wall in walls:
             try:
-                points.append(self._map.morph(points_array(wall, "wall"), False, False)[0].points())
+                points.append(self._map.morph(points_array(wall, "wall"), False, False, False)[0].points())
                 errors.append("")
             except MeshError as error:
                 points.append(np.full_like(self.mesh.points, np.nan))
@@ -92,7 +94,7 @@ class MorphMap:
 
 
 def morph(mesh: Mesh, to: Sections | None, transform: str | Sequence[str], displacements: Any,
-          as_far_as_possible: bool, incremental: bool) -> Mesh:
+          as_far_as_possible: bool, incremental: bool, reconnect: bool) -> Mesh:
     """Does what Mesh.morph() says."""
     changes = [transform] if isinstance(transform, str) else list(transform)
     if (to is not None) + bool(changes) + (displacements is not None) != 1:
@@ -107,4 +109,4 @@ def morph(mesh: Mesh, to: Sections | None, transform: str | Sequence[str], displ
         if by.shape != moving.wall_points.shape:
             raise InputError(f"{len(by)} displacements for the {len(moving.wall)} wall vertices of the mesh")
         wall = moving.wall_points + by
-    return moving.morph(wall, as_far_as_possible=as_far_as_possible, incremental=incremental)
+    return moving.morph(wall, as_far_as_possible=as_far_as_possible, incremental=incremental, reconnect=reconnect)

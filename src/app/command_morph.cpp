@@ -12,6 +12,7 @@
 #include <lamina/io.hpp>
 #include <lamina/morph.hpp>
 #include <lamina/pipeline.hpp>
+#include <lamina/remesh.hpp>
 
 #include "app/case.hpp"
 #include "app/check_report.hpp"
@@ -36,6 +37,7 @@ struct MorphArguments {
     SequenceArguments sequence;
     WriteOptions options;
     MorphOptions morph;
+    bool reconnect = false;
 };
 
 bool is_case_to_morph(const std::string& file) { return file.ends_with(".toml"); }
@@ -129,10 +131,11 @@ void run_morph(const MorphArguments& arguments) {
 
     const Mesh reference = reference_mesh(arguments);
     const MorphMap map(reference);
-    MorphResult result = morph(map, wall_targets(map, arguments, geometry), arguments.morph);
-    const MorphReport report = compare_morphed(map, result.points);
-    MeshView morphed = reference;
+    const MorphResult result = morph(map, wall_targets(map, arguments, geometry), arguments.morph);
+    Mesh morphed = reference;
     morphed.points = result.points;
+    if (arguments.reconnect) morphed = reconnect(morphed);
+    const MorphReport report = compare_morphed(map, morphed);
     print_warnings(lost_marker_warnings(reference.markers, arguments.output, arguments.options));
     write_mesh(morphed, arguments.output, arguments.options);
     if (!arguments.report.empty()) write_file(arguments.report, to_text(morph_json(result, report)));
@@ -183,6 +186,12 @@ void add_morph_command(CLI::App& app) {
                       "write a mesh that gets only a part of the way, since a cell would turn over beyond it");
     command->add_flag("--incremental", arguments->morph.incremental,
                       "where a cell would turn over, go on from a mesh half as far, in as many steps as it takes");
+    command
+        ->add_flag(
+            "--reconnect", arguments->reconnect,
+            "swap diagonals and move vertices beyond the layer afterwards, where triangles get better: the cells are "
+            "no longer those of MESH")
+        ->excludes("--sequence");
     command->add_option("-o,--output", arguments->output, "mesh file to write")->required()->type_name("NEW");
     command->add_option("--format", arguments->options.format, "format of NEW")->type_name(format_names());
     command->add_option("--report", arguments->report, "JSON file to write: the quality before and after")

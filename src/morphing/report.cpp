@@ -32,14 +32,14 @@ double smallest_sine(std::span<const Point> p) {
     return least;
 }
 
-MorphQuality measure_quality(const Mesh& mesh, std::span<const Point> points) {
+MorphQuality measure_quality(const Mesh& mesh) {
     const mesh::CellEdges cells(mesh);
     const auto measure = [&](std::size_t begin, std::size_t end) {
         QualityPart part;
         for (std::size_t cell = begin; cell < end; ++cell) {
             std::array<Point, 4> corners;
             const std::size_t n = cells.corners(cell);
-            for (std::size_t i = 0; i < n; ++i) corners[i] = points[cells.corner(cell, i).index()];
+            for (std::size_t i = 0; i < n; ++i) corners[i] = mesh.points[cells.corner(cell, i).index()];
             const auto& [a, b, c, d] = corners;
             const double angle =
                 n == 3 ? core::measure_triangle(a, b, c).min_angle_deg : mesh::measure_quad(a, b, c, d).min_angle_deg;
@@ -67,14 +67,17 @@ MorphQuality measure_quality(const Mesh& mesh, std::span<const Point> points) {
 namespace lamina {
 
 MorphReport compare_morphed(const MorphMap& map, std::span<const Point> points) {
-    const Mesh& reference = map.reference();
-    if (points.size() != reference.points.size())
-        throw InputError(
-            {}, core::concat(points.size(), " points for the ", reference.points.size(), " vertices of the mesh"));
-    MorphReport report{.before = morphing::measure_quality(reference, reference.points),
-                       .after = morphing::measure_quality(reference, points)};
-    Mesh morphed = reference;
+    Mesh morphed = map.reference();
     morphed.points.assign(points.begin(), points.end());
+    return compare_morphed(map, morphed);
+}
+
+MorphReport compare_morphed(const MorphMap& map, const Mesh& morphed) {
+    const Mesh& reference = map.reference();
+    if (morphed.points.size() != reference.points.size())
+        throw InputError({}, core::concat(morphed.points.size(), " points for the ", reference.points.size(),
+                                          " vertices of the mesh"));
+    MorphReport report{.before = morphing::measure_quality(reference), .after = morphing::measure_quality(morphed)};
     const WallVertices& walls = map.walls();
     const WallVertices moved = wall_vertices(morphed);
     for (std::size_t i = 0; i < walls.vertex.size(); ++i) {

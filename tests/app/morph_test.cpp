@@ -48,6 +48,24 @@ TEST(MorphCommand, MovesToShapesAndTransformations) {
     expect_same_cells(folder, "turned.su2");
 }
 
+TEST(MorphCommand, ReconnectsOnRequest) {
+    const TemporaryFolder folder;
+    make_mesh_to_morph(folder);
+    std::vector<std::string> arguments{"morph", "mesh.vtu", "--transform", "airfoil:rotate:-25:0.25,0",
+                                       "-o",    "new.vtu"};
+    ASSERT_EQ(run_lamina(folder, arguments).exit_code, 0);
+    const Mesh as_it_is = read_mesh(folder / "new.vtu");
+    arguments.emplace_back("--reconnect");
+    const ProgramRun run = run_lamina(folder, arguments);
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const Mesh better = read_mesh(folder / "new.vtu");
+    EXPECT_TRUE(check_mesh(better).valid());
+    EXPECT_EQ(better.points.size(), as_it_is.points.size());
+    EXPECT_NE(better.triangles, as_it_is.triangles);
+    expect_refused(folder, {"morph", "mesh.vtu", "--sequence", "all:pitch:0:5:1", "--reconnect", "-o", "{step}.vtu"},
+                   usage, "--reconnect");
+}
+
 TEST(MorphCommand, MovesByDisplacements) {
     const TemporaryFolder folder;
     make_mesh_to_morph(folder);

@@ -77,6 +77,14 @@ def test_motions_in_further_steps(moving):
     assert np.array_equal(morphed.points[moving.wall], far)
 
 
+def test_morph_reconnects_on_request(reference):
+    as_it_is = reference.morph(transform="all:rotate:-25:0.25,0")
+    better = reference.morph(transform="all:rotate:-25:0.25,0", reconnect=True)
+    assert better.quality().valid and not np.array_equal(better.triangles, reference.triangles)
+    assert np.array_equal(better.points[better.wall.vertex], as_it_is.points[as_it_is.wall.vertex])
+    assert better.facts["after"]["mean_min_angle"] > as_it_is.facts["after"]["mean_min_angle"]
+
+
 def test_bad_input(reference, moving):
     with pytest.raises(lamina.UsageError):
         reference.morph()

@@ -240,6 +240,32 @@ TEST(Remesh, LayersOfMeshesWithoutRegionsStay) {
     for (const Coordinates& edge : thin) EXPECT_EQ(kept.count(edge), 1u) << edge[0] << ' ' << edge[1];
 }
 
+TEST(Reconnect, MakesShearedTrianglesBetterAndKeepsVerticesAndLayer) {
+    for (const bool with_layer : {true, false}) {
+        const Mesh mesh = airfoil_mesh(with_layer);
+        Mesh sheared = mesh;
+        for (Point& p : sheared.points) p.x += 0.6 * p.y;
+        const Mesh better = reconnect(sheared);
+        EXPECT_TRUE(check_mesh(better).valid());
+        ASSERT_EQ(better.points.size(), mesh.points.size());
+        EXPECT_GT(check_mesh(better).isotropic.mean_min_angle_deg,
+                  check_mesh(sheared).isotropic.mean_min_angle_deg + 2);
+        std::vector<bool> stays(mesh.points.size(), false);
+        for (const Marker& marker : mesh.markers)
+            for (const Segment& edge : marker.edges) stays[edge.a.index()] = stays[edge.b.index()] = true;
+        for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+            if (mesh.region[t] == Region::layer)
+                for (const VertexId v : mesh.triangles[t].v) stays[v.index()] = true;
+        for (std::size_t v = 0; v < stays.size(); ++v)
+            if (stays[v]) {
+                EXPECT_EQ(better.points[v], sheared.points[v]) << v;
+            }
+        EXPECT_EQ(better.markers.size(), mesh.markers.size());
+        for (std::size_t m = 0; m < mesh.markers.size(); ++m)
+            EXPECT_EQ(edges_of(better, better.markers[m]), edges_of(sheared, sheared.markers[m]));
+    }
+}
+
 /// Beside a border that stays, a metric that asks for edges 1e8 times as short is lowered, and stays one.
 TEST(Remesh, ImmenseMetricsAtBordersStayPositive) {
     const Mesh mesh = airfoil_mesh(true);

@@ -1,0 +1,68 @@
+// The triangles of a mesh made better with the vertices that it has. Source: L. A. Freitag, C. Ollivier-Gooch, Tetrahedral mesh
+// improvement using swapping and smoothing, Int. J. Numer. Methods Eng. 40 (1997), in two dimensions.
+#include <lamina/remesh.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "remeshing/passes.hpp"
+#include "remeshing/region.hpp"
+
+namespace lamina::remeshing {
+
+namespace {
+
+/// Returns the metric in which edges are as long at each vertex as they are on average. Vertices of no such triangle have
+/// edges of length 1.
+std::vector<MetricTensor> metric_of_edges(const MeshView& mesh) {
+    std::vector<double> sum(mesh.points.size(), 0), edges(mesh.points.size(), 0);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        if (!is_remeshed(mesh, t)) continue;
+        const auto& v = mesh.triangles[t].v;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::size_t a = v[i].index(), b = v[i == 2 ? 0 : i + 1].index();
+            const double edge = distance(mesh.points[a], mesh.points[b]);
+            for (const std::size_t end : {a, b}) {
+                sum[end] += edge;
+                ++edges[end];
+            }
+        }
+    }
+    std::vector<MetricTensor> metric;
+    for (std::size_t v = 0; v < sum.size(); ++v) {
+        const double size = edges[v] > 0 ? sum[v] / edges[v] : 1;
+        metric.push_back({1 / (size * size), 0, 1 / (size * size)});
+    }
+    return metric;
+}
+
+}  // namespace
+
+}  // namespace lamina::remeshing
+
+namespace lamina {
+
+using namespace remeshing;
+
+Mesh reconnect(const MeshView& given) {
+    const MeshWithRegions with_regions(given);
+    const MeshView& mesh = with_regions.view();
+    const std::vector<MetricTensor> metric = metric_of_edges(mesh);
+    MetricMesh region = take_region(mesh, metric, false);
+    if (!region.triangles.empty()) {
+        for (std::uint32_t t = 0; t < region.triangles.size(); ++t) region.renew(t);
+        const BackgroundMetric background(region);
+        Passes passes(region, background);
+        constexpr int rounds = 4;
+        for (int round = 0; round < rounds; ++round) {
+            passes.swap_diagonals();
+            passes.move_vertices();
+        }
+        passes.swap_diagonals();
+    }
+    std::vector<MetricTensor> at_vertices;
+    return put_back(mesh, region, metric, at_vertices);
+}
+
+}  // namespace lamina
