@@ -74,7 +74,7 @@ LAMINA_EXPORT void write_curved_mesh(const MeshView& mesh, const CurvedNodes& no
                                      const WriteOptions& options = {});
 /// Throws UsageError for formats that do not hold curved cells, in one line that names those that do.
 LAMINA_EXPORT void require_curved_format(const std::filesystem::path& file, const WriteOptions& options = {});
-/// Reads a mesh whose cells may be curved, all of one order: MSH. Other formats are read as read_mesh() does; their order
+/// Reads a mesh whose cells may be curved, all of one order: MSH and VTU. Other formats are read as read_mesh() does; their order
 /// is 1. Throws InputError where the file is malformed.
 LAMINA_EXPORT CurvedMesh read_curved_mesh(const std::filesystem::path& file, const ReadOptions& options = {});
 
@@ -134,7 +134,7 @@ private:
 struct StoreOptions {
     std::string format{};                                    ///< that of ReadOptions
     std::size_t max_bytes_in_memory = std::size_t{1} << 30;  ///< arrays of larger files go to temporary files
-    bool curved = false;  ///< whether cells may be curved; else such a file is an InputError
+    bool curved = false;  ///< whether cells of files read into memory may be curved; else such a file is an InputError
 };
 
 /// Reads the mesh that read_mesh() reads, and throws what it throws.

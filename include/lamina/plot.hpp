@@ -12,6 +12,7 @@
 
 #include <filesystem>
 
+#include <lamina/curved_mesh.hpp>
 #include <lamina/mesh.hpp>
 
 namespace lamina {
@@ -46,6 +47,9 @@ struct PlotOptions {
 LAMINA_EXPORT void validate(const PlotOptions& options);  ///< throws OptionError: an option out of range
 /// Draws the mesh: walls are red, with dots at vertices without cells. Throws UsageError for places unknown, too.
 LAMINA_EXPORT void plot_mesh(const Mesh& mesh, const std::filesystem::path& file, const PlotOptions& options = {});
+/// Draws a mesh with curved cells, once. Precondition: check_curved() finds no defect of the lists of nodes.
+LAMINA_EXPORT void plot_mesh(const Mesh& mesh, const CurvedNodes& nodes, const std::filesystem::path& file,
+                             const PlotOptions& options = {});
 /// A number at each vertex of a mesh.
 struct PlotField {
     std::string name;              ///< beside the bar of colours

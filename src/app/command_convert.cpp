@@ -47,14 +47,19 @@ void convert(const ConvertArguments& arguments) {
         outputs.push_back({file, "OUT"});
     require_distinct(files_of_mesh(arguments.from, arguments.from_format), outputs);
     const SignalGuard guard(outputs);
-    StoredMesh mesh = read_stored_mesh(arguments.from, {.format = arguments.from_format});
+    StoredMesh mesh = read_stored_mesh(arguments.from, {.format = arguments.from_format, .curved = true});
+    const bool is_curved = mesh.curved().order > 1;
+    if (is_curved) require_curved_format(arguments.to, arguments.options);
     const std::string name = input_name(arguments.from);
     set_kind(mesh.markers(), arguments.walls, MarkerKind::wall, name);
     set_kind(mesh.markers(), arguments.far_fields, MarkerKind::far_field, name);
     set_kind(mesh.markers(), arguments.symmetries, MarkerKind::symmetry, name);
     print_warnings(make_marker_names_legal(mesh.markers()));
     print_warnings(lost_marker_warnings(mesh.markers(), arguments.to, arguments.options));
-    write_mesh(mesh.view(), arguments.to, arguments.options);
+    if (is_curved)
+        write_curved_mesh(mesh.view(), mesh.curved(), arguments.to, arguments.options);
+    else
+        write_mesh(mesh.view(), arguments.to, arguments.options);
 }
 
 }  // namespace

@@ -70,7 +70,8 @@ void plot(const PlotArguments& arguments) {
     require_format(arguments.mesh, arguments.mesh_format, "--input-format");
     require_distinct(files_of_mesh(arguments.mesh, arguments.mesh_format), outputs);
     const SignalGuard guard(outputs);
-    plot_mesh(read_mesh(arguments.mesh, {.format = arguments.mesh_format}), arguments.picture, options);
+    const CurvedMesh mesh = read_curved_mesh(arguments.mesh, {.format = arguments.mesh_format});
+    plot_mesh(mesh.mesh, mesh.nodes, arguments.picture, options);
 }
 
 }  // namespace

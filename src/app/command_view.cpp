@@ -84,7 +84,7 @@ void view(const ViewArguments& arguments) {
     const std::vector<RunFile> outputs{{page, arguments.page.empty() ? "MESH" : "option --output"}};
     require_distinct(files_of_mesh(arguments.mesh, arguments.format), outputs);
     const SignalGuard guard(outputs);
-    Mesh mesh = read_mesh(arguments.mesh, {.format = arguments.format});
+    Mesh mesh = read_curved_mesh(arguments.mesh, {.format = arguments.format}).mesh;
     const RegionOrigin regions = require_regions(mesh);
     const Json report = check_report(mesh, check_file_mesh(mesh, regions), regions, {});
     for (Marker& marker : mesh.markers)

@@ -37,11 +37,6 @@ OptionTable<MeshCase> file_options() {
                  preset_choices(), member_at(&MeshCase::preset));
     table.text("format", OptionKind::word, format_names(),
                "format of every mesh file; else the extension of each says its format", member_at(&MeshCase::format));
-    table.count(
-        "order", "P",
-        "order of the cells: 1 for straight ones, 2 to 4 for curved ones that follow the walls, each proved valid; "
-        "MSH and VTU alone",
-        numbers_from_to(1, max_cell_order), member_at(&MeshCase::options, &CaseOptions::order));
     table.flag("stream",
                "write the mesh while it is made, piece by piece, in the memory of a few pieces: the same file; SU2 and "
                "VTU alone",

@@ -187,6 +187,7 @@ std::vector<FormatRow> vtu_rows() {
                         .write = write_vtu_variant<compressed>,
                         .files = one_file,
                         .write_curved = write_curved_vtu_variant<compressed>,
+                        .read_curved = read_one_file<read_curved_vtu>,
                         .read = read_one_file<read_vtu>,
                         .read_stored = read_vtu_arrays,
                         .read_sizes = read_vtu_sizes,

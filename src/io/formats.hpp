@@ -96,11 +96,14 @@ struct VtuVariant {
     bool wall_distance = false;  ///< written as point data
 };
 void write_vtu(const MeshView& mesh, VtuVariant variant, std::ostream& out);
-/// Writes curved cells as Lagrange cells, which are not read back.
+/// Writes curved cells as Lagrange cells.
 void write_curved_vtu(const MeshView& mesh, const CurvedNodes& nodes, bool compressed, std::ostream& out);
 /// Writes a mesh in space, which is not read back.
 void write_vtu_extruded(const MeshView& mesh, const Extrusion& extrusion, bool compressed, std::ostream& out);
+/// Reads a mesh with straight cells.
 Mesh read_vtu(const std::string& bytes, const std::filesystem::path& file);
+/// Reads a mesh with cells of one order.
+CurvedMesh read_curved_vtu(const std::string& bytes, const std::filesystem::path& file);
 void read_vtu_arrays(const std::filesystem::path& file, MeshArrays& arrays);
 /// Reads the mesh and these fields.
 Solution read_vtu_solution(const std::string& bytes, const std::filesystem::path& file,

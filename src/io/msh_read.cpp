@@ -19,6 +19,7 @@
 
 #include "core/marker_names.hpp"
 #include "io/byte_reader.hpp"
+#include "io/curved_lists.hpp"
 #include "io/formats.hpp"
 #include "io/mesh_parts.hpp"
 #include "io/msh_elements.hpp"
@@ -85,7 +86,7 @@ public:
     /// Reads a mesh whose cells are straight.
     Mesh read() {
         CurvedMesh mesh = read_curved();
-        if (order_ > 1) in_.fail(fmt::format("cells of order {}, which only 'lamina check' reads", order_));
+        if (order_ > 1) in_.fail(curved_cells_refused(order_));
         return std::move(mesh.mesh);
     }
     /// Returns the sizes that the file holds. Precondition: read() was called.
@@ -341,57 +342,13 @@ private:
             }
             mesh_.region.push_back(region);
         }
-        const std::vector<Marker> before = order_ > 1 ? mesh_.markers : std::vector<Marker>{};
-        orient_markers(mesh_);
-        if (order_ <= 1) return;
-        turn_marker_nodes(before);
-        separate_nodes();
-    }
-
-    /// Turns the nodes of marker edges as the edges were turned. `before` holds the markers as the file has them.
-    void turn_marker_nodes(const std::vector<Marker>& before) {
-        auto nodes = curved_.marker_nodes.begin();
-        for (std::size_t m = 0; m < before.size(); ++m)
-            for (std::size_t i = 0; i < before[m].edges.size(); ++i, nodes += order_ - 1)
-                if (mesh_.markers[m].edges[i] != before[m].edges[i]) std::reverse(nodes, nodes + (order_ - 1));
-    }
-    template <class F>
-    void for_each_curved_list(F&& f) {
-        for (auto* list : {&curved_.triangle_nodes, &curved_.quad_nodes, &curved_.marker_nodes}) f(*list);
-    }
-    /// Makes the nodes that are no corner of any cell those of curved cells.
-    void separate_nodes() {
+        if (order_ <= 1) return orient_markers(mesh_);
         curved_.order = order_;
-        std::vector<bool> is_curved(mesh_.points.size());
-        for_each_curved_list([&](const std::vector<VertexId>& list) {
-            for (const VertexId v : list) is_curved[v.index()] = true;
-        });
-        std::vector<Point> vertices;
-        std::vector<VertexId> number(mesh_.points.size());
-        const auto vertex_count = static_cast<std::size_t>(std::count(is_curved.begin(), is_curved.end(), false));
-        for (std::size_t i = 0; i < mesh_.points.size(); ++i) {
-            number[i] = VertexId(is_curved[i] ? vertex_count + curved_.points.size() : vertices.size());
-            (is_curved[i] ? curved_.points : vertices).push_back(mesh_.points[i]);
-        }
-        mesh_.points = std::move(vertices);
-        renumber_corners(is_curved, number);
-        for_each_curved_list([&](std::vector<VertexId>& list) {
-            for (VertexId& v : list) v = number[v.index()];
-        });
-    }
-    /// Gives the corners of all cells and edges their new numbers.
-    void renumber_corners(const std::vector<bool>& is_curved, const std::vector<VertexId>& number) {
-        const auto renumber = [&](VertexId& v) {
-            if (is_curved[v.index()]) in_.fail("a node is the corner of one element and no corner of another one");
-            v = number[v.index()];
-        };
-        for (Triangle& triangle : mesh_.triangles) std::for_each(triangle.v, triangle.v + 3, renumber);
-        for (Quad& quad : mesh_.quads) std::for_each(quad.v, quad.v + 4, renumber);
-        for (Marker& marker : mesh_.markers)
-            for (Segment& edge : marker.edges) {
-                renumber(edge.a);
-                renumber(edge.b);
-            }
+        CurvedMesh curved{std::move(mesh_), std::move(curved_)};
+        orient_curved_markers(curved);
+        if (!separate_nodes(curved)) in_.fail("a node is the corner of one element and no corner of another one");
+        mesh_ = std::move(curved.mesh);
+        curved_ = std::move(curved.nodes);
     }
 
     ByteReader in_;

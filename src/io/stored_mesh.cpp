@@ -40,11 +40,12 @@ StoredMesh read_stored_mesh(const fs::path& file, const StoreOptions& options) {
     std::error_code error;
     const std::uintmax_t size = is_standard_stream(file) ? 0 : fs::file_size(file, error);
     const bool large = !error && size > options.max_bytes_in_memory;
-    if (options.curved && format.read_curved != nullptr) {
+    const bool in_parts = large && format.read_stored != nullptr;
+    if (options.curved && format.read_curved != nullptr && !in_parts) {
         CurvedMesh curved = format.read_curved(file);
         return StoredMesh(std::move(curved.mesh), std::move(curved.nodes));
     }
-    if (!large || format.read_stored == nullptr) return StoredMesh(format.read(file));
+    if (!in_parts) return StoredMesh(format.read(file));
     auto arrays = std::make_unique<StoredMesh::Arrays>(true);
     format.read_stored(file, arrays->arrays);
     return StoredMesh(std::move(arrays));

@@ -14,6 +14,9 @@ enum VtkCellType : std::uint8_t {
     vtk_quad = 9,
     vtk_hexahedron = 12,
     vtk_wedge = 13,
+    vtk_quadratic_edge = 21,
+    vtk_quadratic_triangle = 22,
+    vtk_biquadratic_quad = 28,
     vtk_lagrange_curve = 68,
     vtk_lagrange_triangle = 69,
     vtk_lagrange_quad = 70

@@ -1,9 +1,11 @@
-// Reads VTK XML unstructured grids of triangles (5), quads (9) and lines (3). Ignores z, vertices and polylines (1, 2,
+// Reads VTK XML unstructured grids of triangles (5), quads (9) and lines (3), or of these with the nodes of one order up to
+// 4: Lagrange cells (69, 70, 68), and quadratic ones (22, 28, 21), whose nodes have the same places. Ignores z, vertices and polylines (1, 2,
 // 4), arrays that lamina does not write, and lines that are in no marker. vtu_write.cpp describes the arrays. Source:
 // VTK User's Guide, "VTK File Formats", XML.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -20,21 +22,44 @@
 #include <lamina/files.hpp>
 
 #include "core/marker_names.hpp"
+#include "io/curved_lists.hpp"
 #include "io/formats.hpp"
 #include "io/mesh_arrays.hpp"
 #include "io/sizes.hpp"
 #include "io/vtk_cell_types.hpp"
 #include "io/vtk_xml.hpp"
+#include "mesh/cell_lattice.hpp"
 
 namespace lamina::io {
 
 namespace {
 
 /// Returns the number of corners of a type of cell; 0 for types that cannot be read or are ignored.
-std::int64_t corners_of(std::uint8_t type) {
-    if (type == vtk_triangle) return 3;
-    if (type == vtk_quad) return 4;
-    return type == vtk_line ? 2 : 0;
+unsigned corners_of(std::uint8_t type) {
+    switch (type) {
+        case vtk_line:
+        case vtk_quadratic_edge:
+        case vtk_lagrange_curve:
+            return 2;
+        case vtk_triangle:
+        case vtk_quadratic_triangle:
+        case vtk_lagrange_triangle:
+            return 3;
+        case vtk_quad:
+        case vtk_biquadratic_quad:
+        case vtk_lagrange_quad:
+            return 4;
+        default:
+            return 0;
+    }
+}
+
+/// Returns the order of a cell of this type with so many vertices; 0 where the type does not have them.
+unsigned order_of(std::uint8_t type, std::int64_t vertices) {
+    const unsigned order =
+        order_of_cell(corners_of(type), static_cast<std::size_t>(std::max<std::int64_t>(vertices, 0)));
+    if (type >= vtk_lagrange_curve) return order;
+    return order == (type >= vtk_quadratic_edge ? 2 : 1) ? order : 0;
 }
 
 bool is_ignored(std::uint8_t type) { return type == vtk_vertex || type == vtk_poly_vertex || type == vtk_poly_line; }
@@ -91,7 +116,20 @@ public:
         read_points();
         if (writer_ == Writer::lamina) read_markers_and_constraints();
         read_cells();
+        if (order_ > 1) xml_.fail(curved_cells_refused(order_));
         return std::move(mesh_);
+    }
+    CurvedMesh read_curved() requires std::is_same_v<Target, Mesh> {
+        read_points();
+        read_markers_and_constraints();
+        read_cells();
+        CurvedMesh curved{std::move(mesh_), std::move(curved_)};
+        if (order_ <= 1) return curved;
+        curved.nodes.order = order_;
+        for (const std::vector<VertexId>& nodes : edge_nodes_)
+            curved.nodes.marker_nodes.insert(curved.nodes.marker_nodes.end(), nodes.begin(), nodes.end());
+        if (!separate_nodes(curved)) xml_.fail("a point is the corner of one cell and no corner of another one");
+        return curved;
     }
     /// Returns the sizes that the file holds as point data.
     std::vector<double> sizes() const {
@@ -221,34 +259,45 @@ private:
     std::int64_t read_cell(std::size_t i, std::int64_t first, CellArrays& arrays) {
         const std::int64_t end = arrays.offsets[i];
         const std::uint8_t type = arrays.types[i];
-        const std::int64_t corners = corners_of(type);
+        const unsigned corners = corners_of(type);
         if (is_ignored(type)) {
             if (end < 0 || static_cast<std::size_t>(end) > arrays.connectivity.size())
                 xml_.fail(fmt::format("cell {} ends behind the last vertex", i));
             return end;
         }
         if (corners == 0) xml_.fail(fmt::format("cell {} has the unknown type {}", i, type));
-        if (end != first + corners || static_cast<std::size_t>(end) > arrays.connectivity.size())
-            xml_.fail(fmt::format("cell {} has not the {} vertices of its type", i, corners));
-        VertexId v[4];
+        const unsigned order = order_of(type, end - first);
+        if (order == 0 || static_cast<std::size_t>(end) > arrays.connectivity.size())
+            xml_.fail(fmt::format("cell {} has not the vertices of its type", i));
         const std::uint32_t marker = arrays.markers ? (*arrays.markers)[i] : 0;
         if (corners == 2 && marker == 0) return end;
-        for (std::int64_t k = 0; k < corners; ++k)
-            v[k] = vertex(arrays.connectivity[static_cast<std::size_t>(first + k)]);
+        if (order_ != 0 && order != order_) xml_.fail("cells of several orders");
+        order_ = order;
+        if (corners == 4 && order_of_quad_.empty()) order_of_quad_ = vtk_order_of_quad(order);
+        std::array<VertexId, mesh::nodes_of_cell(4, max_cell_order)> v;
+        const auto nodes = static_cast<std::size_t>(end - first);
+        for (std::size_t k = 0; k < nodes; ++k)
+            v[corners == 4 ? order_of_quad_[k] : k] = vertex(arrays.connectivity[static_cast<std::size_t>(first) + k]);
+        const std::span<const VertexId> beside = std::span(v).subspan(corners, nodes - corners);
+        const auto keep = [&](std::vector<VertexId>& list) { list.insert(list.end(), beside.begin(), beside.end()); };
         if (corners == 3) {
             mesh_.triangles.push_back({{v[0], v[1], v[2]}});
+            keep(curved_.triangle_nodes);
         } else if (corners == 4) {
             mesh_.quads.push_back({{v[0], v[1], v[2], v[3]}});
+            keep(curved_.quad_nodes);
         } else {
             if (marker > mesh_.markers.size()) xml_.fail(fmt::format("cell {} has a marker without a name", i));
             mesh_.markers[marker - 1].edges.push_back({v[0], v[1]});
+            edge_nodes_.resize(mesh_.markers.size());
+            keep(edge_nodes_[marker - 1]);
         }
         return end;
     }
     /// Calls f(i) for the positions of the mesh's cells in the file: the triangles, then the quads.
     template <class F>
     void for_each_cell(F&& f) const {
-        for (const auto& [corners, count] : {std::pair{3, triangles_}, std::pair{4, quads_}}) {
+        for (const auto& [corners, count] : {std::pair{3u, triangles_}, std::pair{4u, quads_}}) {
             if (count == 0) continue;
             ValuesInOrder<std::uint8_t> types(xml_, "Cells/types", xml_.cells());
             for (std::size_t i = 0; i < xml_.cells(); ++i)
@@ -275,12 +324,20 @@ private:
     Writer writer_;
     std::size_t triangles_ = 0, quads_ = 0;  ///< numbers of the mesh's cells, also once the mesh is handed out
     Target mesh_;
+    unsigned order_ = 0;                             ///< of all cells; 0 before the first one
+    std::vector<std::size_t> order_of_quad_;         ///< vtk_order_of_quad()
+    CurvedNodes curved_;                             ///< the nodes of cells beside their corners, as points of the mesh
+    std::vector<std::vector<VertexId>> edge_nodes_;  ///< per marker
 };
 
 }  // namespace
 
 Mesh read_vtu(const std::string& bytes, const std::filesystem::path& file) {
     return VtuReader<Mesh>(bytes, file, VtuReader<Mesh>::Writer::lamina).read();
+}
+
+CurvedMesh read_curved_vtu(const std::string& bytes, const std::filesystem::path& file) {
+    return VtuReader<Mesh>(bytes, file, VtuReader<Mesh>::Writer::lamina).read_curved();
 }
 
 void read_vtu_arrays(const std::filesystem::path& file, MeshArrays& arrays) {

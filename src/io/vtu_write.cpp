@@ -19,7 +19,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <numeric>
 #include <optional>
 #include <span>
 #include <string>
@@ -27,6 +26,7 @@
 
 #include <lamina/error.hpp>
 
+#include "io/curved_lists.hpp"
 #include "io/formats.hpp"
 #include "io/sizes.hpp"
 #include "io/vtk_cell_types.hpp"
@@ -154,22 +154,6 @@ void add_cells(const VtuCells& cells, VtuWriter& vtu) {
     vtu.add_array<std::int64_t>("offsets", cells.count(), 1, [&cells](std::size_t i) { return cells.offset(i); });
     vtu.add_array<std::uint8_t>("types", cells.count(), 1, [&cells](std::size_t i) { return cells.type(i); });
     vtu.xml += "      </Cells>\n";
-}
-
-/// Returns the places in the order of Gmsh of the nodes of a quadrilateral in that of VTK, which runs along its last two
-/// edges from their far ends, and through the inner nodes row by row.
-std::vector<std::size_t> vtk_order_of_quad(unsigned order) {
-    const std::span<const mesh::LatticePlace> lattice = mesh::lattice_of_cell(4, order);
-    std::vector<std::size_t> places(lattice.size());
-    std::iota(places.begin(), places.end(), std::size_t{0});
-    const std::ptrdiff_t between = order - 1;  // nodes of an edge beside its ends
-    const auto begin = places.begin() + 4 + 2 * between, inner = begin + 2 * between;
-    std::reverse(begin, begin + between);
-    std::reverse(begin + between, inner);
-    std::sort(inner, places.end(), [&](std::size_t a, std::size_t b) {
-        return std::pair(lattice[a].j, lattice[a].i) < std::pair(lattice[b].j, lattice[b].i);
-    });
-    return places;
 }
 
 /// The cells of the file as Lagrange cells. Source: VTK, vtkHigherOrderQuadrilateral and vtkHigherOrderTriangle.

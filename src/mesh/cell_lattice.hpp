@@ -14,8 +14,9 @@ struct LatticePlace {
     unsigned i, j;
 };
 
-/// Returns the number of nodes of a cell with so many corners: all of it, corners included.
+/// Returns the number of nodes of a cell with so many corners, 2 for a line: all of it, corners included.
 constexpr unsigned nodes_of_cell(unsigned corners, unsigned order) {
+    if (corners == 2) return order + 1;
     return corners == 3 ? (order + 1) * (order + 2) / 2 : (order + 1) * (order + 1);
 }
 

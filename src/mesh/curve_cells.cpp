@@ -362,19 +362,6 @@ void set_bend(BentColumn& column, const MeshView& mesh, const WallCurve& wall, u
         column.bend[k] = share * (wall.between[2 * k - 1] - (a + (static_cast<double>(k) / order) * (b - a)));
 }
 
-/// Returns the point of an edge of order p, from its nodes, at the parameter t.
-Point on_edge(std::span<const Point> nodes, double t) {
-    const auto p = static_cast<double>(nodes.size() - 1);
-    Point sum{0, 0};
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-        double factor = 1;
-        for (std::size_t k = 0; k < nodes.size(); ++k)
-            if (k != i) factor *= (p * t - static_cast<double>(k)) / (static_cast<double>(i) - static_cast<double>(k));
-        sum = sum + factor * nodes[i];
-    }
-    return sum;
-}
-
 /// Returns how far an edge of a wall is off the curve, at the nodes and halfway between them.
 double distance_from_curve(const MeshView& mesh, const WallCurve& wall, const BentColumn& column, unsigned order) {
     const Point a = mesh.points[wall.edge.a.index()], b = mesh.points[wall.edge.b.index()];
@@ -382,7 +369,8 @@ double distance_from_curve(const MeshView& mesh, const WallCurve& wall, const Be
     for (unsigned k = 0; k <= order; ++k) nodes[k] = a + (static_cast<double>(k) / order) * (b - a) + column.bend[k];
     double largest = 0;
     for (std::size_t i = 0; i < wall.between.size(); ++i)
-        largest = std::max(largest, distance(wall.between[i], on_edge(std::span(nodes).first(order + 1),
+        largest =
+            std::max(largest, distance(wall.between[i], point_of_edge(std::span(nodes).first(order + 1),
                                                                       static_cast<double>(i + 1) / (2.0 * order))));
     return largest;
 }

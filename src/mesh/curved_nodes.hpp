@@ -32,4 +32,17 @@ inline std::span<const Point> gather_nodes(const MeshView& mesh, const CurvedNod
     return std::span(places).first(n);
 }
 
+/// Returns the point of an edge of order p at the parameter t, by Lagrange's polynomials of its p + 1 evenly spaced nodes.
+inline Point point_of_edge(std::span<const Point> nodes, double t) {
+    const auto p = static_cast<double>(nodes.size() - 1);
+    Point sum{0, 0};
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        double factor = 1;
+        for (std::size_t k = 0; k < nodes.size(); ++k)
+            if (k != i) factor *= (p * t - static_cast<double>(k)) / (static_cast<double>(i) - static_cast<double>(k));
+        sum = sum + factor * nodes[i];
+    }
+    return sum;
+}
+
 }  // namespace lamina::mesh

@@ -48,6 +48,11 @@ OptionTable<CaseOptions> make_pipeline_rows() {
     files.flag("inlet-outlet",
                "the far field is two markers: inlet, where a uniform flow at the angle of attack enters, and outlet",
                true, member_at(&CaseOptions::inlet_outlet));
+    files.count(
+        "order", "P",
+        "order of the cells: 1 for straight ones, 2 to 4 for curved ones that follow the walls, each proved valid; "
+        "MSH and VTU alone",
+        numbers_from_to(1, max_cell_order), member_at(&CaseOptions::order));
     run.count("threads", "N", "number of threads; 0: one per core; never changes the mesh", numbers_from_to(0, 1024),
               member_at(&CaseOptions::threads));
     constexpr double least_count = 100, most_count = 4e9;

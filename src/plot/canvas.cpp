@@ -59,8 +59,7 @@ void Canvas::put(cairo_surface_t* image) {
     cairo_paint(cr_.get());
 }
 
-void Canvas::fill(const VisibleCell& cell, Color color) {
-    std::vector<Point> polygon(cell.corner.begin(), cell.corner.begin() + static_cast<long>(cell.corners));
+void Canvas::fill(std::vector<Point> polygon, Color color) {
     Box box;
     for (const Point p : polygon) box.include(p);
     if (!bounds_.contains(box.lower) || !bounds_.contains(box.upper)) {

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <lamina/point.hpp>
 
@@ -30,7 +31,7 @@ public:
     void put(cairo_surface_t* image);
     /// Fills a cell, without antialiasing: neighbouring cells would otherwise leave pale seams where both cover a pixel
     /// in part.
-    void fill(const VisibleCell& cell, Color color);
+    void fill(std::vector<Point> polygon, Color color);
     void stroke(Point a, Point b, Color color, double alpha, double width);
     /// Writes text of this height in pixels. The point is where its vertical middle meets its left end, its middle or
     /// its right end, as `anchor` is 0, 0.5 or 1.

@@ -77,7 +77,8 @@ void fill(Canvas& canvas, const ValuedTriangle& t, const CellColors& scale, doub
         const double u = (i + step / 3) / parts, v = (j + step / 3) / parts;
         const double value = t.value[0] + u * (t.value[1] - t.value[0]) + v * (t.value[2] - t.value[0]);
         const VisibleCell part{0, 3, {}, {at(i, j), at(i + step, j), at(i, j + step), {}}};
-        canvas.fill(part, viridis((value - scale.low) / (scale.high - scale.low)));
+        canvas.fill({part.corner.begin(), part.corner.begin() + static_cast<long>(part.corners)},
+                    viridis((value - scale.low) / (scale.high - scale.low)));
     };
     for (int i = 0; i < parts; ++i)
         for (int j = 0; i + j < parts; ++j) {

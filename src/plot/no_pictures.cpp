@@ -14,6 +14,7 @@ namespace {
 
 void check_picture_format(const std::filesystem::path&, const std::string&) { refuse_picture(); }
 void plot_mesh(const Mesh&, const std::filesystem::path&, const PlotOptions&) { refuse_picture(); }
+void plot_mesh(const Mesh&, const CurvedNodes&, const std::filesystem::path&, const PlotOptions&) { refuse_picture(); }
 void plot_field(const Mesh&, const PlotField&, const std::filesystem::path&, const PlotOptions&) { refuse_picture(); }
 void plot_chart(std::span<const ChartCurve>, const std::filesystem::path&, const ChartOptions&) { refuse_picture(); }
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include <lamina/error.hpp>
 #include <lamina/plot.hpp>
 
 #include "mesh/periodic.hpp"
@@ -16,6 +17,7 @@
 #include "plot/color.hpp"
 #include "plot/color_scale.hpp"
 #include "plot/decorations.hpp"
+#include "plot/drawn_edges.hpp"
 #include "plot/picture_file.hpp"
 #include "plot/view.hpp"
 
@@ -67,49 +69,68 @@ double covered_share(const VisibleCell& cell, const PictureView& view, double wi
     return cell.area() > 0 ? std::min(0.5 * length * drawn / cell.area(), 1.0) : 0;
 }
 
+/// Returns the border of a cell, counter-clockwise.
+std::vector<Point> border_of(const VisibleCell& cell, const DrawnEdges& edges) {
+    std::vector<Point> border;
+    for (std::size_t i = 0; i < cell.corners; ++i) {
+        const DrawnEdge edge = edges.of_cell(cell, i);
+        border.insert(border.end(), edge.line().begin(), edge.line().end() - 1);
+    }
+    return border;
+}
+
+void stroke_edge(Canvas& canvas, const DrawnEdge& edge, Color color, double alpha, double width) {
+    for (std::size_t k = 0; k + 1 < edge.count; ++k)
+        canvas.stroke(edge.points[k], edge.points[k + 1], color, alpha, width);
+}
+
 /// Fills the cells. If with_grey is set, cells so thin that their edges would merge into a blot get the grey of the ink
 /// that their edges have on the whole, so that no pale line lies between them and thicker ones.
 void draw_cells(Canvas& canvas, const std::vector<VisibleCell>& cells, const std::vector<Color>& colors,
-                const PictureView& view, bool with_grey, double width) {
+                const DrawnEdges& edges, const PictureView& view, bool with_grey, double width) {
     for (std::size_t i = 0; i < cells.size(); ++i) {
         const bool too_thin = with_grey && cells[i].thickness() * view.scale < min_outlined_thickness;
-        canvas.fill(cells[i], too_thin ? mix(colors[i], ink, covered_share(cells[i], view, width)) : colors[i]);
+        canvas.fill(border_of(cells[i], edges),
+                    too_thin ? mix(colors[i], ink, covered_share(cells[i], view, width)) : colors[i]);
     }
 }
 
 /// Draws each edge once, and fainter where the cells beside it are thin.
-void draw_edges(Canvas& canvas, const Mesh& mesh, const std::vector<VisibleCell>& cells, const PictureView& view,
+void draw_edges(Canvas& canvas, const DrawnEdges& drawn, const std::vector<VisibleCell>& cells, const PictureView& view,
                 double width, double max_alpha) {
     struct VisibleEdge {
         Segment ends;
         float thickness;  ///< of the thinner one of its cells, in pixels
+        unsigned edge;    ///< of the cell
+        std::size_t cell;
     };
     std::vector<VisibleEdge> edges;
-    for (const VisibleCell& cell : cells) {
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+        const VisibleCell& cell = cells[c];
         const auto thickness = static_cast<float>(cell.thickness() * view.scale);
         if (thickness < min_outlined_thickness) continue;
-        for (std::size_t i = 0; i < cell.corners; ++i) {
+        for (unsigned i = 0; i < cell.corners; ++i) {
             const VertexId a = cell.vertex[i], b = cell.vertex[(i + 1) % cell.corners];
-            edges.push_back({{std::min(a, b), std::max(a, b)}, thickness});
+            edges.push_back({{std::min(a, b), std::max(a, b)}, thickness, i, c});
         }
     }
     std::sort(edges.begin(), edges.end(), [](const VisibleEdge& e, const VisibleEdge& f) {
-        return std::tie(e.ends, e.thickness) < std::tie(f.ends, f.thickness);
+        return std::tie(e.ends, e.thickness, e.cell) < std::tie(f.ends, f.thickness, f.cell);
     });
     for (std::size_t i = 0; i < edges.size(); ++i) {
         if (i > 0 && edges[i].ends == edges[i - 1].ends) continue;
-        const auto [a, b] = edges[i].ends;
         const double alpha = max_alpha * kept_share(edges[i].thickness, width);
-        canvas.stroke(mesh.points[a.index()], mesh.points[b.index()], ink, alpha, width);
+        stroke_edge(canvas, drawn.of_cell(cells[edges[i].cell], edges[i].edge), ink, alpha, width);
     }
 }
 
-void draw_markers(Canvas& canvas, const Mesh& mesh, const LineWidths& widths) {
+void draw_markers(Canvas& canvas, const Mesh& mesh, const DrawnEdges& edges, const LineWidths& widths) {
+    std::size_t number = 0;
     for (const Marker& marker : mesh.markers) {
         const bool far = marker.kind == MarkerKind::far_field;
         for (const Segment& edge : marker.edges)
-            canvas.stroke(mesh.points[edge.a.index()], mesh.points[edge.b.index()], far ? ink : wall_edge, 1,
-                          far ? widths.far : widths.wall);
+            stroke_edge(canvas, edges.of_marker(edge, number++), far ? ink : wall_edge, 1,
+                        far ? widths.far : widths.wall);
     }
 }
 
@@ -145,13 +166,15 @@ DrawnCells take_small_cells(DrawnCells& drawn, const PictureView& view) {
     return small;
 }
 
-void draw_drawn_cells(Canvas& canvas, const Mesh& mesh, const DrawnCells& drawn, const PictureView& view, bool colored,
-                      double edge_width) {
-    draw_cells(canvas, drawn.cells, drawn.colors, view, !colored, edge_width);
-    draw_edges(canvas, mesh, drawn.cells, view, edge_width, colored ? 0.45 : 1);
+void draw_drawn_cells(Canvas& canvas, const DrawnEdges& edges, const DrawnCells& drawn, const PictureView& view,
+                      bool colored, double edge_width) {
+    draw_cells(canvas, drawn.cells, drawn.colors, edges, view, !colored, edge_width);
+    draw_edges(canvas, edges, drawn.cells, view, edge_width, colored ? 0.45 : 1);
 }
 
-void draw(cairo_surface_t* surface, const Mesh& mesh, const PictureView& view, const PlotOptions& options) {
+void draw(cairo_surface_t* surface, const Mesh& mesh, const CurvedNodes& nodes, const PictureView& view,
+          const PlotOptions& options) {
+    const DrawnEdges edges(mesh, nodes);
     const std::vector<VisibleCell> cells = visible_cells(mesh, view.window);
     const CellColors colors = color_cells(mesh, cells, options.color);
     const LineWidths widths = line_widths(cells, view);
@@ -163,9 +186,9 @@ void draw(cairo_surface_t* surface, const Mesh& mesh, const PictureView& view, c
     if (cairo_surface_get_type(surface) != CAIRO_SURFACE_TYPE_IMAGE)
         if (const DrawnCells small = take_small_cells(drawn, view); !small.cells.empty())
             draw_on_image(canvas, view,
-                          [&](Canvas& image) { draw_drawn_cells(image, mesh, small, view, colored, widths.edge); });
-    draw_drawn_cells(canvas, mesh, drawn, view, colored, widths.edge);
-    draw_markers(canvas, mesh, widths);
+                          [&](Canvas& image) { draw_drawn_cells(image, edges, small, view, colored, widths.edge); });
+    draw_drawn_cells(canvas, edges, drawn, view, colored, widths.edge);
+    draw_markers(canvas, mesh, edges, widths);
     if (!has_cells) draw_dots(canvas, mesh, view, 1.2 * widths.wall);
     draw_decorations(canvas, view, colors, options);
 }
@@ -178,14 +201,19 @@ namespace lamina {
 
 using namespace plot;
 
-void plot_mesh(const Mesh& one, const fs::path& file, const PlotOptions& options) {
+void plot_mesh(const Mesh& mesh, const fs::path& file, const PlotOptions& options) {
+    plot_mesh(mesh, {}, file, options);
+}
+
+void plot_mesh(const Mesh& one, const CurvedNodes& nodes, const fs::path& file, const PlotOptions& options) {
     validate(options);
+    if (nodes.order > 1 && options.repeat > 1) throw UsageError("option repeat: curved cells are drawn once");
     check_picture_format(file, options.format);
     const Mesh copies = options.repeat > 1 ? mesh::joined_copies(one, options.repeat) : Mesh{};
     const Mesh& mesh = options.repeat > 1 ? copies : one;
     const PictureView view = make_view(mesh, options);
     write_picture(file, options.format, view.width, view.height,
-                  [&](cairo_surface_t* surface) { draw(surface, mesh, view, options); });
+                  [&](cairo_surface_t* surface) { draw(surface, mesh, nodes, view, options); });
 }
 
 }  // namespace lamina

@@ -321,6 +321,20 @@ std::string curved_triangle(double y, bool is_inverted = false) {
            (is_inverted ? "4 9 2 0 0 1 3 2 6 5 4\n" : "4 9 2 0 0 1 2 3 4 5 6\n") + "$EndElements\n";
 }
 
+TEST(CurvedFiles, AreConvertedDrawnAndViewed) {
+    const TemporaryFolder folder;
+    folder.write("good.msh", curved_triangle(-0.1));
+    EXPECT_EQ(run_lamina(folder, {"convert", "good.msh", "good.vtu"}).exit_code, 0);
+    EXPECT_EQ(run_lamina(folder, {"convert", "good.vtu", "again.msh", "--format", "msh22"}).exit_code, 0);
+    const ProgramRun checked = run_lamina(folder, {"check", "again.msh", "--json"});
+    EXPECT_EQ(Json::parse(checked.out)["curved"]["order"], 2) << checked.err;
+    EXPECT_EQ(run_lamina(folder, {"plot", "good.vtu", "-o", "good.png"}).exit_code, 0);
+    EXPECT_EQ(run_lamina(folder, {"view", "good.vtu", "--no-open"}).exit_code, 0);
+    const ProgramRun refused = run_lamina(folder, {"convert", "good.vtu", "good.su2"});
+    EXPECT_NE(refused.err.find("format 'su2' holds straight cells"), std::string::npos) << refused.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / "good.su2"));
+}
+
 TEST(CheckCommand, ProvesCurvedCells) {
     const TemporaryFolder folder;
     folder.write("good.msh", curved_triangle(-0.1));

@@ -255,7 +255,7 @@ TEST(CurvedCells, KeepCornersAndBasesAndPointsGiven) {
     EXPECT_TRUE(kept.curved_check.valid());
 }
 
-TEST(CurvedCells, AreReadBackFromMshFiles) {
+TEST(CurvedCells, AreReadBackFromFiles) {
     const TemporaryFolder folder;
     for (const LayerTopology topology : {LayerTopology::quads, LayerTopology::layered})
         for (unsigned order = 2; order <= max_cell_order; ++order) {
@@ -264,13 +264,15 @@ TEST(CurvedCells, AreReadBackFromMshFiles) {
             options.far_field.size = 3;
             options.sizing.gradation = 0.4;
             const MeshResult result = generate_mesh({"naca:0012"}, options);
-            for (const char* const format : {"msh41", "msh41-binary", "msh22", "msh22-binary"}) {
-                const std::filesystem::path file = folder.path() / "curved.msh";
+            for (const std::string format : {"msh41", "msh41-binary", "msh22", "msh22-binary", "vtu", "vtu-zlib"}) {
+                const std::filesystem::path file = folder.path() / ("curved." + format.substr(0, 3));
                 write_curved_mesh(result.mesh, result.curved, file, {.format = format});
                 const CurvedMesh read = read_curved_mesh(file);
                 EXPECT_EQ(mesh_hash(read.mesh), mesh_hash(result.mesh));
                 EXPECT_EQ(read.nodes.order, order);
                 EXPECT_EQ(read.nodes.points, result.curved.points);
+                EXPECT_EQ(read.nodes.triangle_nodes, result.curved.triangle_nodes);
+                EXPECT_EQ(read.nodes.quad_nodes, result.curved.quad_nodes);
                 EXPECT_TRUE(check_mesh(read.mesh).valid());
                 EXPECT_TRUE(check_curved(read.mesh, read.nodes).valid());
                 EXPECT_THROW(read_mesh(file), InputError);

@@ -243,6 +243,26 @@ std::vector<double> brightness_of_rows(const std::filesystem::path& png) {
     return rows;
 }
 
+TEST(Plot, CurvedCellsFollowTheirNodes) {
+    const TemporaryFolder folder;
+    // A square whose lower edge is an arc down to y = -0.5 reaches the lowest rows of this window, as it does not without it.
+    const Mesh mesh{.points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}},
+                    .quads = {{{VertexId{0u}, VertexId{1u}, VertexId{2u}, VertexId{3u}}}},
+                    .markers = {{"wall", MarkerKind::wall, {{VertexId{0u}, VertexId{1u}}}}}};
+    CurvedNodes nodes{.order = 2, .points = {{0.5, -0.5}, {1, 0.5}, {0.5, 1}, {0, 0.5}, {0.5, 0.25}}};
+    for (std::uint32_t v = 4; v < 9; ++v) nodes.quad_nodes.push_back(VertexId{v});
+    nodes.marker_nodes = {VertexId{4u}};
+    const PlotOptions below{.window = PlotWindow{{0.45, 0.55, -0.55, -0.05}}, .width_px = 200};
+    plot_mesh(mesh, folder / "straight.png", below);
+    plot_mesh(mesh, nodes, folder / "curved.png", below);
+    const std::vector<double> empty = brightness_of_rows(folder / "straight.png");
+    const std::vector<double> filled = brightness_of_rows(folder / "curved.png");
+    EXPECT_EQ(filled[5], empty[5]);      // y = -0.54, below the arc
+    EXPECT_LT(filled[20], empty[20]);    // y = -0.5, the wall
+    EXPECT_GT(filled[100], empty[100]);  // y = -0.3, within the white cell
+    EXPECT_THROW(plot_mesh(mesh, nodes, folder / "curved.png", {.repeat = 2}), UsageError);
+}
+
 // Where edges merge into grey, it must be as dark as they are: it was paler by 22 of 255, and walls seemed to have a gap.
 TEST(Plot, NoPaleStripLiesBesideAWall) {
     constexpr int width = 2000, wall_and_blending = 4, strip = 6;

@@ -1,0 +1,31 @@
+// Curved cells as files hold them: with one list of points, vertices and nodes of cells together.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <lamina/curved_mesh.hpp>
+
+namespace lamina::io {
+
+/// Returns the order of a line, triangle or quadrilateral with so many nodes; 0 where no order up to max_cell_order has
+/// them.
+unsigned order_of_cell(unsigned corners, std::size_t nodes);
+
+/// Returns what a reader of straight cells says.
+std::string curved_cells_refused(unsigned order);
+
+/// Does what orient_markers() does, and turns the nodes of an edge with it.
+void orient_curved_markers(CurvedMesh& mesh);
+
+/// Tells the nodes of curved cells from vertices. Before, all are points of the mesh, and the lists of nodes number these;
+/// afterwards they are as CurvedNodes says. Returns false where a node is the corner of one cell and no corner of another.
+bool separate_nodes(CurvedMesh& mesh);
+
+/// Returns the places in the order of CurvedNodes of the nodes of a Lagrange quadrilateral in that of VTK, which runs along
+/// the last two edges from their far ends, and through the inner nodes row by row. Lines and triangles have one order in
+/// both. Source: VTK, vtkHigherOrderQuadrilateral.
+std::vector<std::size_t> vtk_order_of_quad(unsigned order);
+
+}  // namespace lamina::io
