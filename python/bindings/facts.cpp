@@ -75,6 +75,19 @@ nb::dict walls_of(const WallSummary& walls) {
     return result;
 }
 
+nb::dict curving_of(const MeshResult& result) {
+    nb::dict facts;
+    facts["order"] = result.curved.order;
+    facts["wall_edges"] = result.curving.wall_edges;
+    facts["curved_wall_edges"] = result.curving.curved_edges;
+    facts["reduced_wall_edges"] = result.curving.reduced_edges;
+    facts["reduced_distance"] = result.curving.reduced_distance;
+    facts["wall_distance"] = result.curving.wall_distance;
+    facts["min_scaled_jacobian"] = result.curved_check.min_scaled_jacobian;
+    facts["p01_scaled_jacobian"] = result.curved_check.p01_scaled_jacobian;
+    return facts;
+}
+
 }  // namespace
 
 nb::list warnings_of(const std::vector<Warning>& warnings) {
@@ -121,6 +134,7 @@ nb::dict facts_of(const MeshResult& result) {
         elements.append(element);
     }
     facts["elements"] = elements;
+    if (result.curved.order > 1) facts["curved"] = curving_of(result);
     facts["thinned_rays"] = result.thinned_rays;
     facts["estimate"] = to_python(result.estimate);
     facts["seconds"] = seconds_of(result.seconds);

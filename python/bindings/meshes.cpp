@@ -22,6 +22,7 @@
 #include "core/marker_names.hpp"
 #include "facts.hpp"
 #include "interruption.hpp"
+#include "mesh/cell_lattice.hpp"
 #include "shared_mesh.hpp"
 
 namespace lamina::python {
@@ -30,7 +31,8 @@ namespace {
 
 SharedMesh read(const std::string& file, const std::string& format) {
     const nb::gil_scoped_release unlocked;
-    return shared(read_mesh(file, {.format = format}));
+    CurvedMesh mesh = read_curved_mesh(file, {.format = format});
+    return shared(std::move(mesh.mesh), std::move(mesh.nodes));
 }
 
 /// Writes the mesh, with legal names of markers. Returns the warnings of those that differ from the mesh's own.
@@ -42,19 +44,28 @@ nb::list write(const SharedMesh& mesh, const std::string& file, const std::strin
     view.markers = markers;
     {
         const nb::gil_scoped_release unlocked;
-        write_mesh(view, file,
-                   {.format = format,
-                    .wall_distance = wall_distance,
-                    .span = span,
-                    .span_cells = span_cells,
-                    .span_periodic = span_periodic});
+        const WriteOptions options{.format = format,
+                                   .wall_distance = wall_distance,
+                                   .span = span,
+                                   .span_cells = span_cells,
+                                   .span_periodic = span_periodic};
+        if (mesh.nodes->order > 1)
+            write_curved_mesh(view, *mesh.nodes, file, options);
+        else
+            write_mesh(view, file, options);
     }
     return warnings_of(warnings);
 }
 
 nb::dict check(const SharedMesh& mesh, double min_angle, const std::optional<double>& first_height) {
     MeshCheck result;
-    run_unlocked([&] { result = check_mesh(*mesh, {.min_angle_deg = min_angle, .first_height = first_height}); });
+    run_unlocked([&] {
+        result = check_mesh(*mesh, {.min_angle_deg = min_angle, .first_height = first_height});
+        if (mesh.nodes->order <= 1 || !result.valid()) return;
+        CurvedCheck curved = check_curved(*mesh, *mesh.nodes);
+        result.defects = std::move(curved.defects);
+        result.defect_count = curved.defect_count;
+    });
     return check_of(result);
 }
 
@@ -88,6 +99,7 @@ nb::tuple remesh_by(const SharedMesh& mesh, const RowsArgument<double, 3>& tenso
         const double* row = tensors.data() + 3 * i;
         metric[i] = {row[0], row[1], row[2]};
     }
+    require_straight(mesh, "remesh()");
     RemeshedMesh made;
     run_unlocked([&] {
         require_valid(*mesh);
@@ -165,6 +177,41 @@ SharedMesh mesh_of_arrays(const PointsArgument& points, const RowsArgument<std::
     return shared(std::move(mesh));
 }
 
+/// Returns (order, points, and the nodes of triangles, quadrilaterals and markers) as CurvedNodes has them.
+nb::tuple curved_nodes(const SharedMesh& mesh) {
+    const nb::capsule owner(new std::shared_ptr<const CurvedNodes>(mesh.nodes),
+                            [](void* p) noexcept { delete static_cast<std::shared_ptr<const CurvedNodes>*>(p); });
+    const auto ids = [&](const std::vector<VertexId>& list) { return view<std::uint32_t>(list, owner); };
+    const CurvedNodes& nodes = *mesh.nodes;
+    return nb::make_tuple(nodes.order, view<double>(nodes.points, owner), ids(nodes.triangle_nodes),
+                          ids(nodes.quad_nodes), ids(nodes.marker_nodes));
+}
+
+using NodeNumbers = ListArgument<std::uint32_t>;
+
+/// Returns the mesh with the curved cells of these nodes. Throws InputError where these do not fit it.
+SharedMesh with_curved_nodes(const SharedMesh& mesh, unsigned order, const PointsArgument& points,
+                             const NodeNumbers& triangle_nodes, const NodeNumbers& quad_nodes,
+                             const NodeNumbers& marker_nodes) {
+    CurvedNodes nodes{.order = order, .points = points_of(points)};
+    const std::size_t first = (*mesh).points.size(), end = first + nodes.points.size();
+    const auto take = [&](const NodeNumbers& given, std::size_t expected, std::vector<VertexId>& list) {
+        if (given.shape(0) != expected) throw InputError({}, "the nodes of curved cells do not fit their order");
+        for (std::size_t i = 0; i < expected; ++i) {
+            if (given.data()[i] < first || given.data()[i] >= end)
+                throw InputError({}, "a curved cell has a node without a point");
+            list.emplace_back(given.data()[i]);
+        }
+    };
+    if (order < 2 || order > max_cell_order) throw InputError({}, "curved cells have an order from 2 to 4");
+    std::size_t edges = 0;
+    for (const Marker& marker : (*mesh).markers) edges += marker.edges.size();
+    take(triangle_nodes, (*mesh).triangles.size() * (mesh::nodes_of_cell(3, order) - 3), nodes.triangle_nodes);
+    take(quad_nodes, (*mesh).quads.size() * (mesh::nodes_of_cell(4, order) - 4), nodes.quad_nodes);
+    take(marker_nodes, edges * (order - 1), nodes.marker_nodes);
+    return {mesh.mesh, std::make_shared<const CurvedNodes>(std::move(nodes))};
+}
+
 }  // namespace
 
 void add_meshes(nb::module_& module) {
@@ -177,6 +224,8 @@ void add_meshes(nb::module_& module) {
         .def("layer", [](const SharedMesh& mesh) { return view_of<std::uint16_t>(mesh, &Mesh::layer); })
         .def("constraints", [](const SharedMesh& mesh) { return view_of<std::uint32_t>(mesh, &Mesh::constraints); })
         .def("markers", &markers)
+        .def("curved_nodes", &curved_nodes)
+        .def("with_curved_nodes", &with_curved_nodes)
         .def("walls", &walls)
         .def("wall_distances", &distances)
         .def("check", &check, nb::arg("min_angle"), nb::arg("first_height").none())

@@ -31,6 +31,7 @@ namespace {
 class SharedMorphMap {
 public:
     explicit SharedMorphMap(const SharedMesh& mesh) : mesh_(mesh) {
+        require_straight(mesh, "morphing");
         run_unlocked([&] {
             require_valid(*mesh_);
             map_.emplace(*mesh_);

@@ -20,6 +20,7 @@
 #include <lamina/solver_case.hpp>
 #include <lamina/warning.hpp>
 
+#include "app/mesh_run.hpp"
 #include "app/solver_case_run.hpp"
 #include "arrays.hpp"
 #include "bindings.hpp"
@@ -80,7 +81,7 @@ nb::tuple to_python(MeshResult result) {
     nb::dict facts = facts_of(result);
     const nb::tuple columns = nb::make_tuple(owning_array<std::uint32_t>(std::move(result.columns)),
                                              owning_array<std::uint32_t>(std::move(result.column_origins)));
-    return nb::make_tuple(shared(std::move(result.mesh)), warnings, facts, columns);
+    return nb::make_tuple(shared(std::move(result.mesh), std::move(result.curved)), warnings, facts, columns);
 }
 
 /// Makes a mesh, whose lengths are divided by `divisor` where there is one. What `stop` raises ends the run; it is called
@@ -121,6 +122,7 @@ nb::tuple write_case(const CaseArguments& arguments, const nb::list& given_secti
     app::MeshCase mesh_case;
     mesh_case.options = request.options;
     mesh_case.given = request.given;
+    app::require_straight(mesh_case);
     app::prepare_case(solver, options, mesh_case);
     request.options = mesh_case.options;
     check_solver_case_writable(solver, arguments.folder, options);

@@ -249,6 +249,53 @@ class Mesh:
         return MappingProxyType({name: _KINDS[kind] for name, kind, _ in self._markers})
 
     @cached_property
+    def _curved(self) -> tuple[int, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        return self._data.curved_nodes()
+
+    @property
+    def order(self) -> int:
+        """The order of the cells: 1 where they are straight, else 2 to 4."""
+        return self._curved[0]
+
+    @cached_property
+    def nodes(self) -> np.ndarray:
+        """(n + k, 2) the nodes of all cells: `points`, then those of curved cells beside their corners."""
+        return immutable(np.concatenate([self.points, self._curved[1]]))
+
+    def _nodes_of(self, corners: np.ndarray, beside: np.ndarray) -> np.ndarray:
+        return immutable(np.hstack([corners, beside.reshape(len(corners), -1)]) if len(beside) else corners)
+
+    @cached_property
+    def cell_nodes(self) -> Mapping[str, np.ndarray]:
+        """The nodes of "triangles" and "quads", (m, (p + 1) (p + 2) / 2) and (m, (p + 1)^2) indices into `nodes` at the
+        order p: corners, then the nodes within each edge, from each corner to the next, then those inside, which are
+        ordered as the nodes of a smaller cell. It is the order of Gmsh:
+
+            order 2     order 3          order 4                order 3
+            2           2                2                      3--9--8--2
+            | .         | .              | .                    |        |
+            5  4        7  6             9  8                   10 15 14 7
+            |    .      |    .           |    .                 |        |
+            0--3--1     8  9  5          10 14  7               11 12 13 6
+                        |       .        |        .             |        |
+                        0--3--4--1       11 12 13  6            0--4--5--1
+                                         |           .
+                                         0--3--4--5---1
+        """
+        _, _, triangle_nodes, quad_nodes, _ = self._curved
+        return MappingProxyType({"triangles": self._nodes_of(self.triangles, triangle_nodes),
+                                 "quads": self._nodes_of(self.quads, quad_nodes)})
+
+    @cached_property
+    def marker_nodes(self) -> Mapping[str, np.ndarray]:
+        """The nodes of the edges of each marker by its name: (k, order + 1) indices into `nodes`, the two ends and those
+        between from the first to the second."""
+        ends = [len(edges) * (self.order - 1) for edges in self.markers.values()]
+        parts = np.split(self._curved[4], np.cumsum(ends)[:-1]) if ends else []
+        return MappingProxyType({name: self._nodes_of(edges, part)
+                                 for (name, edges), part in zip(self.markers.items(), parts)})
+
+    @cached_property
     def region(self) -> np.ndarray:
         """Per cell: 0 in the layer, 1 in the isotropic region."""
         return self._data.region()
@@ -521,11 +568,15 @@ class Mesh:
             name: np.array(getattr(self, name))
             for name in ("points", "triangles", "quads", "region", "piece", "layer", "constraints")}
         arrays["markers"] = [(name, kind, np.array(edges)) for name, kind, edges in self._markers]
-        return {"arrays": arrays, "warnings": list(self._warnings), "facts": self._facts,
+        curved = tuple(np.array(part) for part in self._curved[1:]) if self.order > 1 else ()
+        return {"arrays": arrays, "order": self.order, "curved": curved, "warnings": list(self._warnings), "facts": self._facts,
                 "columns": tuple(np.array(part) for part in self._columns)}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
-        self._set(_data_of_arrays(**state["arrays"]), state["warnings"], state["facts"], state["columns"])
+        data = _data_of_arrays(**state["arrays"])
+        if state["curved"]:
+            data = data.with_curved_nodes(state["order"], *state["curved"])
+        self._set(data, state["warnings"], state["facts"], state["columns"])
 
 
 def _data_of_arrays(points: Any, triangles: Any, quads: Any, markers: Any, region: Any, piece: Any, layer: Any,
@@ -589,7 +640,7 @@ def check(mesh: Mesh, *, min_angle: float | None = None, first_height: float | N
     """Checks a mesh exactly and measures its quality.
 
     A mesh is valid if its cells are counter-clockwise, conform, and cover its domain once, and if the markers are its
-    boundary. `min_angle`, in degrees, is the bound of `QualitySummary.angles_below_bound`; `first_height`, in units of
+    boundary. Each curved cell must be proved valid, too. `min_angle`, in degrees, is the bound of `QualitySummary.angles_below_bound`; `first_height`, in units of
     the input, the height that first cells should have, else their median on each marker.
 
     Examples

@@ -181,6 +181,9 @@ class MeshOptions(TypedDict, total=False):
     base_marker: bool | None
     # the far field is two markers: inlet, where a uniform flow at the angle of attack enters, and outlet
     inlet_outlet: bool | None
+    # order of the cells: 1 for straight ones, 2 to 4 for curved ones that follow the walls, each proved valid;
+    # MSH and VTU alone; >= 1 and <= 4 [1]
+    order: int | None
     # number of threads; 0: one per core; never changes the mesh; >= 0 and <= 1024 [0]
     threads: int | None
     # largest number of triangles; a run that needs more, by estimate, is refused before the work; >= 1 and <=

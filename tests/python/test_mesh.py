@@ -155,6 +155,37 @@ def test_pickle(small):
         assert np.array_equal(getattr(again, name), getattr(small, name))
 
 
+@pytest.mark.parametrize("order", [2, 3, 4])
+def test_curved(order, tmp_path):
+    mesh = lamina.mesh("naca:0012", order=order, layer_topology="quads", layers=4, far_field=3, gradation=0.4)
+    assert mesh.order == order and mesh.quality().valid and mesh.facts["curved"]["order"] == order
+    nodes = mesh.cell_nodes
+    assert nodes["triangles"].shape == (len(mesh.triangles), (order + 1) * (order + 2) // 2)
+    assert nodes["quads"].shape == (len(mesh.quads), (order + 1) ** 2)
+    assert np.array_equal(nodes["quads"][:, :4], mesh.quads)
+    name, = (name for name, kind in mesh.marker_kinds.items() if kind == "wall")
+    wall = mesh.nodes[mesh.marker_nodes[name]]
+    assert np.array_equal(wall[:, :2], mesh.points[mesh.markers[name]])
+    begin, step = wall[:, :1], wall[:, 1:2] - wall[:, :1]
+    share = ((wall[:, 2:] - begin) * step).sum(2) / (step * step).sum(2)
+    assert np.allclose(share, np.arange(1, order) / order, atol=0.05)  # they run from the first end to the second
+    mesh.write(tmp_path / "curved.vtu")
+    for again in (lamina.read(tmp_path / "curved.vtu"), pickle.loads(pickle.dumps(mesh))):
+        assert again.order == order and np.array_equal(again.nodes, mesh.nodes)
+        assert np.array_equal(again.cell_nodes["quads"], nodes["quads"])
+        assert np.array_equal(again.marker_nodes["farfield"], mesh.marker_nodes["farfield"])
+    with pytest.raises(lamina.UsageError, match="straight"):
+        mesh.write(tmp_path / "curved.su2")
+    with pytest.raises(lamina.UsageError, match="straight"):
+        lamina.MorphMap(mesh)
+
+
+def test_straight_cells_have_their_corners_as_nodes(small):
+    assert small.order == 1 and np.array_equal(small.nodes, small.points)
+    assert np.array_equal(small.cell_nodes["triangles"], small.triangles)
+    assert all(np.array_equal(small.marker_nodes[name], edges) for name, edges in small.markers.items())
+
+
 def test_never_changes(small):
     hash_before, walls = small.hash, len(small.markers["airfoil"])
     with pytest.raises(AttributeError):
