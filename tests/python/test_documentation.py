@@ -10,10 +10,12 @@ import pytest
 
 import lamina
 
-PAGES = ["README.md", "docs/python.md", "docs/recipes/batch.md", "docs/recipes/morphing.md"]
+PAGES = ["README.md", "docs/python.md", "docs/recipes/batch.md", "docs/recipes/morphing.md",
+         "docs/reference/formats.md"]
 # What pages name without making it first.
 FILES = {"section.dat": "rae2822.dat", "slat.dat": "crmhl2d_slat.dat", "main.dat": "crmhl2d_main.dat",
          "flap.dat": "crmhl2d_flap.dat"}
+MESHES = ["mesh.msh", "mesh.vtu"]
 
 
 def names_of_readers():
@@ -32,9 +34,11 @@ def names_of_readers():
 
 
 @pytest.mark.parametrize("page", PAGES)
-def test_blocks_run(page, repository, tmp_path, monkeypatch):
+def test_blocks_run(page, repository, small, tmp_path, monkeypatch):
     for name, original in FILES.items():
         shutil.copy(repository / "examples/geometry" / original, tmp_path / name)
+    for name in MESHES:
+        small.write(tmp_path / name)
     if importlib.util.find_spec("pyvista") is None:  # 100 MB of packages
         monkeypatch.setattr(lamina.Mesh, "to_pyvista", lamina.Mesh.to_meshio)
     monkeypatch.chdir(tmp_path)
@@ -46,3 +50,9 @@ def test_blocks_run(page, repository, tmp_path, monkeypatch):
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", lamina.MeshWarning)
             exec(compile(block, page, "exec"), names)
+
+
+def test_no_page_is_left_out(repository):
+    pages = [page for page in [*repository.glob("*.md"), *repository.glob("docs/**/*.md"), repository / "web/README.md"]
+             if "```python" in page.read_text()]
+    assert sorted(str(page.relative_to(repository)) for page in pages) == sorted(PAGES)
