@@ -96,8 +96,9 @@ FarField between_walls(FarField box, const Box& bodies, double chord, const FarF
         throw OptionError(
             options.tunnel ? "tunnel" : "ground",
             fmt::format("does not enclose the configuration, which lies from y = {:.6g} to {:.6g}, while the "
-                        "walls are at {:.6g} and {:.6g}: make the tunnel higher",
-                        bodies.lower.y, bodies.upper.y, floor, ceiling));
+                        "domain lies from {:.6g} to {:.6g}: make {}",
+                        bodies.lower.y, bodies.upper.y, floor, ceiling,
+                        options.tunnel ? "the tunnel higher" : "--far-field larger"));
     box.floor = floor;
     if (options.tunnel) box.ceiling = ceiling;
     box.shape = FarFieldShape::outline;

@@ -36,7 +36,7 @@ struct LineGraph {
 /// Cuts lines where they cross each other, the bodies, walls of the domain and its line of symmetry, and leaves out what
 /// lies behind these. A crossing with a wall of a body becomes a vertex of the wall; one that is nearer to a vertex than
 /// three tenths of the edge becomes that vertex. So does an end of a line that is nearer to a wall than half its edge. Bodies
-/// that a line of symmetry cuts stay images. Throws OptionError for a line outside the far field.
+/// that a line of symmetry cuts stay mirrored. Throws OptionError for a line outside the far field.
 LineGraph arrange_lines(std::span<const InternalLine> lines, const decoupling::FarField& far_field, Geometry& geometry);
 
 /// Returns sizes at the vertices of lines: their distances from other lines that they are no part of.
