@@ -1,5 +1,5 @@
-// Source: G. H. Golub, C. F. Van Loan, Matrix Computations (4th ed., 2013), sections 4.1.2 and 4.2.10, L D L' by
-// blocks: without roots, systems of twice the size have factors of just twice the size.
+// Source: G. H. Golub, C. F. Van Loan, Matrix Computations (4th ed., 2013), section 4.1.2. Without roots,
+// systems of twice the size have factors of just twice the size.
 // Libraries of dense matrices choose the order of sums by the processor, and contract them: their factors have other bits
 // on other machines.
 #include "morphing/front.hpp"

@@ -1,6 +1,6 @@
 // Source: P. R. Amestoy, T. A. Davis, I. S. Duff, An approximate minimum degree ordering algorithm, SIAM J. Matrix Anal.
 // Appl. 17 (1996), as in Eigen. J. W. H. Liu, The role of elimination trees in sparse factorization, SIAM J. Matrix Anal.
-// Appl. 11 (1990), sections 3 and 4. C. Ashcraft, R. Grimes, The influence of relaxed supernode partitions on the
+// Appl. 11 (1990). C. Ashcraft, R. Grimes, The influence of relaxed supernode partitions on the
 // multifrontal method, ACM Trans. Math. Softw. 15 (1989), for supernodes with entries that are zero.
 #include "morphing/supernodes.hpp"
 
@@ -145,7 +145,7 @@ private:
 
     /// Takes the node right before a group into it, where that adds few zeros: small supernodes cost more than they.
     /// The bounds are those of CHOLMOD (Y. Chen, T. A. Davis, W. W. Hager, S. Rajamanickam, Algorithm 887, ACM Trans. Math.
-    /// Softw. 35 (2008), section 4).
+    /// Softw. 35 (2008)).
     bool takes_in(Group& group, const Node& node) const {
         const Node& root = nodes_[group.node];
         if (node.below == node.end || below_[node.below] > root.last) return false;

@@ -18,6 +18,23 @@
 
 namespace lamina::morphing {
 
+/// A subtree of supernodes that one thread works on.
+struct Subtree {
+    std::size_t begin, root;              ///< its first and its last supernode
+    std::size_t first_beyond;             ///< the places of the rows beyond it begin here
+    std::vector<std::uint32_t> beyond{};  ///< these rows
+};
+
+/// Where the entries of a factor are, and what may be done at the same time.
+struct EliminationPlan {
+    Supernodes nodes;
+    std::vector<Subtree> subtrees;
+    std::vector<std::size_t> top;  ///< the supernodes that are in none, each after its children
+    std::size_t places;            ///< of columns, and of rows beyond subtrees
+
+    std::size_t rows(std::size_t s) const { return nodes.columns(s) + nodes.rows_below(s).size(); }
+};
+
 namespace {
 
 /// Subtrees are independent pieces of work, which threads take, where each makes a smaller share of the work than this one.
@@ -40,23 +57,6 @@ Matrix matrix_of(std::size_t n, std::vector<Entry> entries) {
     return matrix;
 }
 
-/// A subtree of supernodes that one thread works on.
-struct Subtree {
-    std::size_t begin, root;              ///< its first and its last supernode
-    std::size_t first_beyond;             ///< the places of the rows beyond it begin here
-    std::vector<std::uint32_t> beyond{};  ///< these rows
-};
-
-/// Where the entries of a factor are, and what may be done at the same time.
-struct Plan {
-    Supernodes nodes;
-    std::vector<Subtree> subtrees;
-    std::vector<std::size_t> top;  ///< the supernodes that are in none, each after its children
-    std::size_t places;            ///< of columns, and of rows beyond subtrees
-
-    std::size_t rows(std::size_t s) const { return nodes.columns(s) + nodes.rows_below(s).size(); }
-};
-
 /// Returns the products that each supernode and all before it in its subtree take.
 std::vector<double> work_of_subtrees(const Supernodes& nodes) {
     std::vector<double> work(nodes.size(), 0);
@@ -69,8 +69,8 @@ std::vector<double> work_of_subtrees(const Supernodes& nodes) {
     return work;
 }
 
-Plan divide(Supernodes nodes) {
-    Plan plan{std::move(nodes), {}, {}, 0};
+EliminationPlan divide(Supernodes nodes) {
+    EliminationPlan plan{std::move(nodes), {}, {}, 0};
     const std::vector<std::uint32_t>& parent = plan.nodes.parent;
     const std::vector<double> work = work_of_subtrees(plan.nodes);
     double all = 0;
@@ -90,19 +90,10 @@ Plan divide(Supernodes nodes) {
     return plan;
 }
 
-/// Calls f(supernode) for all supernodes, each after its children.
-template <class F>
-void for_each_upwards(const Plan& plan, F&& f) {
-    core::parallel_for(plan.subtrees.size(), 1, [&](std::size_t t, std::size_t) {
-        for (std::size_t s = plan.subtrees[t].begin; s <= plan.subtrees[t].root; ++s) f(s);
-    });
-    for (const std::size_t s : plan.top) f(s);
-}
-
 /// Makes the panels of the supernodes, each after its children.
 class Factorisation {
 public:
-    Factorisation(const Matrix& lower, const Plan& plan)
+    Factorisation(const Matrix& lower, const EliminationPlan& plan)
         : lower_(lower), plan_(plan), panels_(plan.nodes.size()), left_(plan.nodes.size()) {
         children_.resize(plan.nodes.size());
         for (std::size_t s = 0; s < plan.nodes.size(); ++s)
@@ -110,13 +101,16 @@ public:
     }
 
     std::vector<std::vector<double>> run() {
-        for_each_upwards(plan_, [&](std::size_t s) { make(s); });
+        core::parallel_for(plan_.subtrees.size(), 1, [&](std::size_t t, std::size_t) {
+            for (std::size_t s = plan_.subtrees[t].begin; s <= plan_.subtrees[t].root; ++s) make(s);
+        });
+        for (const std::size_t s : plan_.top) make(s);
         return std::move(panels_);
     }
 
 private:
     const Matrix& lower_;
-    const Plan& plan_;
+    const EliminationPlan& plan_;
     std::vector<std::vector<double>> panels_, left_;  ///< left: for the rows below the panels, until the parent has it
     std::vector<std::vector<std::size_t>> children_;
 
@@ -179,7 +173,7 @@ private:
 
 /// Gives the rows of supernodes in subtrees that are beyond the subtree places after all columns, for each subtree its own,
 /// so that threads never write to the same place.
-void separate_subtrees(Plan& plan) {
+void separate_subtrees(EliminationPlan& plan) {
     Supernodes& nodes = plan.nodes;
     for (Subtree& subtree : plan.subtrees) {
         const std::span<const std::uint32_t> beyond = nodes.rows_below(subtree.root);
@@ -218,7 +212,7 @@ struct SymmetricSystem::Factors {
                 subtract_times(x[subtree.beyond[i]], -1, x[subtree.first_beyond + i]);
         std::vector<Row> rows;
         for (const std::size_t s : plan_.top) eliminate(s, x, rows);
-        for (auto s = plan_.top.rbegin(); s != plan_.top.rend(); ++s) substitute(*s, x, rows);
+        for (std::size_t t = plan_.top.size(); t-- > 0;) substitute(plan_.top[t], x, rows);
         for_each_subtree([&](const Subtree& subtree, std::vector<Row>& rows_of_thread) {
             for (std::size_t i = 0; i < subtree.beyond.size(); ++i) x[subtree.first_beyond + i] = x[subtree.beyond[i]];
             for (std::size_t s = subtree.root + 1; s-- > subtree.begin;) substitute(s, x, rows_of_thread);
@@ -228,7 +222,7 @@ struct SymmetricSystem::Factors {
     }
 
 private:
-    Plan plan_;
+    EliminationPlan plan_;
     std::vector<std::vector<double>> panels_;  ///< per supernode
 
     template <class F>
@@ -279,8 +273,8 @@ SymmetricSystem& SymmetricSystem::operator=(SymmetricSystem&&) noexcept = defaul
 SymmetricSystem::~SymmetricSystem() = default;
 
 SymmetricSystem::SymmetricSystem(std::size_t n, std::vector<Entry> entries) {
-    // Eigen numbers the entries of the matrix, of which a row has seven, by 31 bits.
-    constexpr std::size_t max_rows = std::size_t{1} << 24;
+    // Eigen numbers the entries of the matrix by 31 bits: the seven of a row on meshes, and half as many again to order them.
+    constexpr std::size_t max_rows = std::size_t{1} << 27;
     if (n > max_rows)
         throw MeshError(core::concat("a mesh to morph has at most ", max_rows, " vertices beyond its rays, not ", n));
     if (n > 0) factors_ = std::make_unique<const Factors>(matrix_of(n, std::move(entries)));
