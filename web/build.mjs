@@ -10,7 +10,11 @@ const module = `${root}build/browser/module`,
   threads = `${root}build/browser/module-threads`,
   site = `${root}build/browser/site`,
   made = `${root}build/browser/package`;
-const alias = {"lamina-module": `${module}/lamina.mjs`, "report-page": `${root}share/page`};
+const alias = {
+  "lamina-module": `${module}/lamina.mjs`,
+  "triangulation-module": `${module}/triangulation.mjs`,
+  "report-page": `${root}share/page`,
+};
 const shared = {
   bundle: true,
   format: "esm",
@@ -34,8 +38,8 @@ await writeFile(`${site}/page.css`, styles.join("\n"));
 await cp(`${module}/lamina.wasm`, `${site}/lamina.wasm`);
 await cp(threads, `${site}/threads`, {recursive: true});
 
-await build({...shared, entryPoints: ["src/lamina.ts"], outdir: `${made}/dist`});
-await cp(`${module}/lamina.wasm`, `${made}/dist/lamina.wasm`);
+await build({...shared, entryPoints: ["src/lamina.ts", "src/triangulation.ts"], outdir: `${made}/dist`});
+for (const name of ["lamina", "triangulation"]) await cp(`${module}/${name}.wasm`, `${made}/dist/${name}.wasm`);
 await cp(threads, `${made}/dist/threads`, {recursive: true});
 execFileSync("node_modules/.bin/tsc", ["-p", "tsconfig.types.json", "--outDir", `${made}/dist`], {stdio: "inherit"});
 const {scripts, devDependencies, prettier, ...published} = JSON.parse(await readFile("package.json", "utf8"));

@@ -6,4 +6,4 @@ foreach(folder fmt fast_float)
   file(CREATE_LINK /usr/include/${folder} ${CMAKE_BINARY_DIR}/headers/${folder} SYMBOLIC)
 endforeach()
 target_include_directories(fmt::fmt INTERFACE ${CMAKE_BINARY_DIR}/headers)
-target_compile_definitions(fmt::fmt INTERFACE FMT_HEADER_ONLY)
+target_compile_definitions(fmt::fmt INTERFACE FMT_HEADER_ONLY FMT_STATIC_THOUSANDS_SEPARATOR=44)  # a comma, and no locales

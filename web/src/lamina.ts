@@ -5,6 +5,7 @@
 import makeModule from "lamina-module";
 import {zipSync, type Zippable} from "fflate";
 import {LaminaError} from "./error.ts";
+import {wasmBytes, type WasmSource} from "./wasm_bytes.ts";
 import type {Generated, HeldMesh, MakeModule, Module, Reply} from "./module.ts";
 
 export {LaminaError};
@@ -27,7 +28,18 @@ export type Options = Record<string, OptionValue>;
 /** One option of mesh(). */
 export interface OptionRow {
   key: string;
-  kind: "number" | "number_or_range" | "length" | "count" | "count_or_auto" | "flag" | "word" | "words" | "repeated" | "path" | "paths";
+  kind:
+    | "number"
+    | "number_or_range"
+    | "length"
+    | "count"
+    | "count_or_auto"
+    | "flag"
+    | "word"
+    | "words"
+    | "repeated"
+    | "path"
+    | "paths";
   /** What stands for the value in help; the words of an option of kind "word", parted by bars. */
   metavar: string;
   help: string;
@@ -136,22 +148,6 @@ function valueOf<Value>(reply: Reply<Value>): Value {
   return reply.value as Value;
 }
 
-async function wasmBytes(source?: URL | string | ArrayBuffer | Uint8Array): Promise<ArrayBuffer | Uint8Array> {
-  if (source instanceof ArrayBuffer || source instanceof Uint8Array) return source;
-  const url = new URL(source ?? "lamina.wasm", import.meta.url);
-  if (url.protocol === "file:" && typeof process === "object") {
-    const {readFile} = await import(/* @vite-ignore */ nodeFiles);
-    return readFile(url);
-  }
-  const response = await fetch(url);
-  if (!response.ok) throw new Error(`${url} cannot be loaded: ${response.status} ${response.statusText}`);
-  return response.arrayBuffer();
-}
-
-// A name that bundlers for browsers do not follow.
-const nodeFiles: string = "node:fs/promises";
-declare const process: unknown;
-
 let loading: Promise<Module> | undefined;
 
 function keep(made: Promise<Module>): Promise<Module> {
@@ -171,7 +167,7 @@ function keep(made: Promise<Module>): Promise<Module> {
  * Loads the WebAssembly module, once. The other functions call it by themselves; call it first to begin early, or to
  * say where lamina.wasm is (beside this file by default).
  */
-export function load(wasm?: URL | string | ArrayBuffer | Uint8Array): Promise<Module> {
+export function load(wasm: WasmSource = new URL("lamina.wasm", import.meta.url)): Promise<Module> {
   return loading ?? keep(wasmBytes(wasm).then((wasmBinary) => (makeModule as MakeModule)({wasmBinary})));
 }
 

@@ -106,7 +106,8 @@ std::span<const BorderLines::ChainCorner> BorderLines::chain_corners(Index chain
     const auto begin = std::lower_bound(chain_corners_.begin(), chain_corners_.end(), ChainCorner{first, second, 0});
     auto end = begin;
     while (end != chain_corners_.end() && end->first == first && end->second == second) ++end;
-    return {begin, end};
+    // The C++ library of browsers makes no span of two iterators.
+    return {chain_corners_.data() + (begin - chain_corners_.begin()), static_cast<std::size_t>(end - begin)};
 }
 
 std::span<const Index> BorderLines::chains_at(Index v) const {
