@@ -27,7 +27,9 @@
 #include <lamina/error.hpp>
 
 #include "core/marker_names.hpp"
+#include "io/cgns_elements.hpp"
 #include "io/cgns_lock.hpp"
+#include "io/curved_lists.hpp"
 #include "io/formats.hpp"
 #include "io/mesh_parts.hpp"
 
@@ -65,15 +67,19 @@ public:
     CgnsReader(const CgnsReader&) = delete;
     CgnsReader& operator=(const CgnsReader&) = delete;
 
-    Mesh read() {
+    CurvedMesh read() {
         read_zone();
         read_coordinates();
         read_sections();
         read_boundary_conditions();
         make_markers();
         make_regions();
-        orient_markers(mesh_);
-        return std::move(mesh_);
+        CurvedMesh curved{std::move(mesh_), std::move(curved_)};
+        if (order_ > 1) curved.nodes.order = order_;
+        orient_curved_markers(curved);
+        if (order_ > 1 && !separate_nodes(curved))
+            fail("a node is the corner of one element and no corner of another one");
+        return curved;
     }
     /// Returns the names of all arrays at the vertices. Precondition: read()
     std::vector<std::string> fields() const {
@@ -105,7 +111,8 @@ private:
         std::string name;
         cgsize_t first;  ///< number of its first element
         std::vector<Segment> bars;
-        std::vector<int> condition;  ///< per bar: the number of its boundary condition, from 1; 0 where it is in none
+        std::vector<VertexId> nodes;  ///< per bar those between its ends
+        std::vector<int> condition;   ///< per bar: the number of its boundary condition, from 1; 0 where it is in none
     };
 
     [[noreturn]] void fail(const std::string& reason) const { throw InputError({name_, 0, {}}, reason); }
@@ -200,38 +207,52 @@ private:
             int boundary_elements = 0, has_parents = 0;
             require(cg_section_read(file_, 1, 1, s, name, &type, &first, &last, &boundary_elements, &has_parents));
             if (type == NODE) continue;
-            if (type != TRI_3 && type != QUAD_4 && type != BAR_2)
-                fail(fmt::format("section '{}' has elements {}: only TRI_3, QUAD_4 and BAR_2 can be read", name,
-                                 cg_ElementTypeName(type)));
+            const CgnsElement* const element = find_cgns_element(type);
+            if (element == nullptr)
+                fail(fmt::format(
+                    "section '{}' has elements {}: only bars, triangles and quadrilaterals with all nodes of "
+                    "orders 1 to 4 can be read",
+                    name, cg_ElementTypeName(type)));
+            if (order_ != 0 && element->order != order_) fail("elements of several orders");
+            order_ = element->order;
             require(cg_ElementDataSize(file_, 1, 1, s, &size));
-            const cgsize_t corners = type == TRI_3 ? 3 : type == QUAD_4 ? 4 : 2;
+            const auto of_element = static_cast<cgsize_t>(element->nodes());
             if (first < 1 || last < first || size < 0 || static_cast<std::uintmax_t>(size) > bytes_ ||
-                size / corners != last - first + 1 || size % corners != 0)
+                size / of_element != last - first + 1 || size % of_element != 0)
                 fail(fmt::format("section '{}' has not the elements {} to {}", name, first, last));
             std::vector<cgsize_t> nodes(static_cast<std::size_t>(size));
             require(cg_elements_read(file_, 1, 1, s, nodes.data(), nullptr));
-            add_section(name, type, first, nodes);
+            add_section(name, *element, first, nodes);
         }
     }
-    void add_section(const std::string& name, ElementType_t type, cgsize_t first, const std::vector<cgsize_t>& nodes) {
+    void add_section(const std::string& name, const CgnsElement& element, cgsize_t first,
+                     const std::vector<cgsize_t>& nodes) {
         const auto vertex = [&](std::size_t i) {
             if (nodes[i] < 1 || static_cast<std::size_t>(nodes[i]) > points_)
                 fail(fmt::format("section '{}': vertex {} where there are {}", name, nodes[i], points_));
             return VertexId(static_cast<std::size_t>(nodes[i] - 1));
         };
-        if (type == TRI_3) {
-            for (std::size_t i = 0; i < nodes.size(); i += 3)
-                mesh_.triangles.push_back({{vertex(i), vertex(i + 1), vertex(i + 2)}});
-            triangle_sections_.emplace_back(name, nodes.size() / 3);
-        } else if (type == QUAD_4) {
-            for (std::size_t i = 0; i < nodes.size(); i += 4)
-                mesh_.quads.push_back({{vertex(i), vertex(i + 1), vertex(i + 2), vertex(i + 3)}});
-            quad_sections_.emplace_back(name, nodes.size() / 4);
+        const std::size_t size = element.nodes(), count = nodes.size() / size;
+        BarSection bars{name, first, {}, {}, {}};
+        std::vector<VertexId>& beside = element.corners == 3   ? curved_.triangle_nodes
+                                        : element.corners == 4 ? curved_.quad_nodes
+                                                               : bars.nodes;
+        std::array<VertexId, mesh::nodes_of_cell(4, max_cell_order)> v;
+        for (std::size_t i = 0; i < count; ++i) {
+            for (std::size_t k = 0; k < size; ++k) v[place_of_cgns_node(element, k)] = vertex(i * size + k);
+            if (element.corners == 3)
+                mesh_.triangles.push_back({{v[0], v[1], v[2]}});
+            else if (element.corners == 4)
+                mesh_.quads.push_back({{v[0], v[1], v[2], v[3]}});
+            else
+                bars.bars.push_back({v[0], v[1]});
+            beside.insert(beside.end(), v.begin() + element.corners, v.begin() + static_cast<std::ptrdiff_t>(size));
+        }
+        if (element.corners == 2) {
+            bars.condition.resize(count, 0);
+            bar_sections_.push_back(std::move(bars));
         } else {
-            BarSection section{name, first, {}, {}};
-            for (std::size_t i = 0; i < nodes.size(); i += 2) section.bars.push_back({vertex(i), vertex(i + 1)});
-            section.condition.resize(section.bars.size(), 0);
-            bar_sections_.push_back(std::move(section));
+            (element.corners == 3 ? triangle_sections_ : quad_sections_).emplace_back(name, count);
         }
     }
 
@@ -291,16 +312,27 @@ private:
     }
 
     void make_markers() {
-        for (BarSection& section : bar_sections_) {
-            Marker rest{section.name, core::kind_of_name(section.name), {}};
+        const std::size_t of_conditions = conditions_.size();
+        for (const BarSection& section : bar_sections_)
+            conditions_.push_back({section.name, core::kind_of_name(section.name), {}});
+        std::vector<std::vector<VertexId>> nodes(conditions_.size());
+        for (std::size_t s = 0; s < bar_sections_.size(); ++s) {
+            const BarSection& section = bar_sections_[s];
+            const std::ptrdiff_t between =
+                section.bars.empty() ? 0 : std::ssize(section.nodes) / std::ssize(section.bars);
             for (std::size_t i = 0; i < section.bars.size(); ++i) {
                 const int c = section.condition[i];
-                (c == 0 ? rest : conditions_[static_cast<std::size_t>(c - 1)]).edges.push_back(section.bars[i]);
+                const std::size_t marker = c == 0 ? of_conditions + s : static_cast<std::size_t>(c - 1);
+                conditions_[marker].edges.push_back(section.bars[i]);
+                const auto begin = section.nodes.begin() + static_cast<std::ptrdiff_t>(i) * between;
+                nodes[marker].insert(nodes[marker].end(), begin, begin + between);
             }
-            if (!rest.edges.empty()) conditions_.push_back(std::move(rest));
         }
-        for (Marker& marker : conditions_)
-            if (!marker.edges.empty()) mesh_.markers.push_back(std::move(marker));
+        for (std::size_t m = 0; m < conditions_.size(); ++m) {
+            if (conditions_[m].edges.empty()) continue;
+            mesh_.markers.push_back(std::move(conditions_[m]));
+            curved_.marker_nodes.insert(curved_.marker_nodes.end(), nodes[m].begin(), nodes[m].end());
+        }
     }
     void make_regions() {
         triangle_sections_.insert(triangle_sections_.end(), quad_sections_.begin(), quad_sections_.end());
@@ -321,7 +353,9 @@ private:
     std::vector<std::pair<std::string, std::size_t>> triangle_sections_, quad_sections_;  ///< names, numbers of cells
     std::vector<BarSection> bar_sections_;
     std::vector<Marker> conditions_;  ///< one marker per boundary condition, then the markers of sections
+    unsigned order_ = 0;              ///< of all elements; 0 before the first one
     Mesh mesh_;
+    CurvedNodes curved_;  ///< the nodes of elements beside their corners, as points of the mesh
 };
 
 /// Returns whether a file is one of ADF, the older kind of CGNS files.
@@ -421,22 +455,30 @@ auto with_reader(const fs::path& file, Act act) {
     return act(reader, reader.read());
 }
 
+/// Returns the mesh. Throws InputError where its cells are curved.
+Mesh straight(CurvedMesh mesh, const fs::path& file) {
+    if (mesh.nodes.order > 1) throw InputError({file.string(), 0, {}}, curved_cells_refused(mesh.nodes.order));
+    return std::move(mesh.mesh);
+}
+
 }  // namespace
 
-Mesh read_cgns(const fs::path& file) {
-    return with_reader(file, [](const CgnsReader&, Mesh mesh) { return mesh; });
+Mesh read_cgns(const fs::path& file) { return straight(read_curved_cgns(file), file); }
+
+CurvedMesh read_curved_cgns(const fs::path& file) {
+    return with_reader(file, [](const CgnsReader&, CurvedMesh mesh) { return mesh; });
 }
 
 Solution read_cgns_solution(const fs::path& file, std::span<const FieldRequest> fields) {
-    return with_reader(file, [&](CgnsReader& reader, Mesh mesh) {
-        Solution solution{std::move(mesh), {}};
+    return with_reader(file, [&](CgnsReader& reader, CurvedMesh mesh) {
+        Solution solution{straight(std::move(mesh), file), {}};
         for (const FieldRequest& field : fields) solution.fields.push_back(reader.field(field));
         return solution;
     });
 }
 
 std::vector<std::string> cgns_fields(const fs::path& file) {
-    return with_reader(file, [](CgnsReader& reader, const Mesh&) { return reader.fields(); });
+    return with_reader(file, [](CgnsReader& reader, const CurvedMesh&) { return reader.fields(); });
 }
 
 }  // namespace lamina::io

@@ -28,6 +28,7 @@
 #include "core/atomic_file.hpp"
 #include "core/marker_names.hpp"
 #include "core/parallel.hpp"
+#include "io/cgns_elements.hpp"
 #include "io/cgns_lock.hpp"
 #include "io/formats.hpp"
 #include "io/mesh_parts.hpp"
@@ -75,8 +76,8 @@ struct BoundaryPart {
 
 class CgnsWriter {
 public:
-    CgnsWriter(const MeshView& mesh, CgnsVariant variant, const fs::path& target)
-        : mesh_(mesh), variant_(variant), extrusion_(variant.extrusion), target_(target) {
+    CgnsWriter(const MeshView& mesh, const CurvedNodes& curved, CgnsVariant variant, const fs::path& target)
+        : mesh_(mesh), curved_(curved), variant_(variant), extrusion_(variant.extrusion), target_(target) {
         for (const Marker& marker : mesh.markers) boundary_.push_back({marker.name, marker.kind});
         if (extrusion_ != nullptr)
             for (const char* plane : {first_plane, last_plane})
@@ -107,7 +108,14 @@ private:
 
     /// Returns the number of cells across the span, or 1 in the plane.
     std::size_t layers() const { return extrusion_ != nullptr ? extrusion_->cells : 1; }
-    std::size_t nodes() const { return mesh_.points.size() * (extrusion_ != nullptr ? extrusion_->planes() : 1); }
+    std::size_t nodes() const {
+        return mesh_.points.size() * (extrusion_ != nullptr ? extrusion_->planes() : 1) + curved_.points.size();
+    }
+    /// Returns a point of the plane: that of a vertex or, of plane meshes, that of a node of curved cells.
+    Point point(std::size_t node) const {
+        const std::size_t n = mesh_.points.size();
+        return extrusion_ == nullptr && node >= n ? curved_.points[node - n] : mesh_.points[node % n];
+    }
 
     void write_base() {
         const bool in_space = extrusion_ != nullptr;
@@ -129,11 +137,10 @@ private:
     }
 
     void write_coordinates() {
-        const std::size_t n = mesh_.points.size();
-        write_axis("CoordinateX", [&](std::size_t i) { return mesh_.points[i % n].x; });
-        write_axis("CoordinateY", [&](std::size_t i) { return mesh_.points[i % n].y; });
+        write_axis("CoordinateX", [&](std::size_t i) { return point(i).x; });
+        write_axis("CoordinateY", [&](std::size_t i) { return point(i).y; });
         if (extrusion_ != nullptr)
-            write_axis("CoordinateZ", [&](std::size_t i) { return extrusion_->height(i / n); });
+            write_axis("CoordinateZ", [&](std::size_t i) { return extrusion_->height(i / mesh_.points.size()); });
         else if (variant_.three_coordinates)
             write_axis("CoordinateZ", [](std::size_t) { return 0.0; });
     }
@@ -153,12 +160,11 @@ private:
     /// Writes a section of elements, numbered from the end of the last section on. node(i, k) returns node k of element
     /// i, counted from 0.
     template <class F>
-    void write_section(const std::string& name, ElementType_t type, std::size_t corners, std::size_t count, F&& node) {
-        std::vector<cgsize_t> nodes(corners * count);
+    void write_section(const std::string& name, ElementType_t type, std::size_t size, std::size_t count, F&& node) {
+        std::vector<cgsize_t> nodes(size * count);
         core::parallel_for(count, parallel_grain, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i)
-                for (std::size_t k = 0; k < corners; ++k)
-                    nodes[corners * i + k] = static_cast<cgsize_t>(node(i, k) + 1);
+                for (std::size_t k = 0; k < size; ++k) nodes[size * i + k] = static_cast<cgsize_t>(node(i, k) + 1);
         });
         const auto first = next_element_;
         next_element_ += static_cast<cgsize_t>(count);
@@ -168,6 +174,7 @@ private:
     }
     void write_sections() {
         extrusion_ != nullptr ? write_volumes() : write_cells();
+        std::size_t first_edge = 0;
         for (std::size_t m = 0; m < mesh_.markers.size(); ++m) {
             const std::vector<Segment>& edges = mesh_.markers[m].edges;
             boundary_[m].first = next_element_;
@@ -175,8 +182,8 @@ private:
             if (extrusion_ != nullptr)
                 write_sides(boundary_[m].name, edges);
             else
-                write_section(boundary_[m].name, BAR_2, 2, edges.size(),
-                              [&](std::size_t i, std::size_t k) { return (k == 0 ? edges[i].a : edges[i].b).index(); });
+                write_bars(boundary_[m].name, edges, first_edge);
+            first_edge += edges.size();
             boundary_[m].last = next_element_ - 1;
         }
         if (extrusion_ == nullptr) return;
@@ -184,10 +191,25 @@ private:
         write_plane(boundary_[mesh_.markers.size() + 1], true);
     }
     void write_cells() {
-        for (const CellBlock& block : cell_blocks(mesh_))
-            write_section(section_name(block, false), block.corners == 3 ? TRI_3 : QUAD_4, block.corners,
-                          block.cells.size(),
-                          [&](std::size_t i, std::size_t k) { return block.vertices(mesh_, i)[k].index(); });
+        for (const CellBlock& block : cell_blocks(mesh_)) {
+            const CgnsElement& element = cgns_element(static_cast<unsigned>(block.corners), curved_.order);
+            const std::vector<VertexId>& beside = block.corners == 3 ? curved_.triangle_nodes : curved_.quad_nodes;
+            const std::size_t between = element.nodes() - block.corners;
+            write_section(section_name(block, false), element.type, element.nodes(), block.cells.size(),
+                          [&](std::size_t i, std::size_t k) {
+                              if (k < block.corners) return block.vertices(mesh_, i)[k].index();
+                              const std::size_t place = place_of_cgns_node(element, k) - block.corners;
+                              return beside[block.cells[i] * between + place].index();
+                          });
+        }
+    }
+    /// Writes the edges of a marker. `first`: the number of the edges of the markers before.
+    void write_bars(const std::string& name, const std::vector<Segment>& edges, std::size_t first) {
+        const CgnsElement& element = cgns_element(2, curved_.order);
+        write_section(name, element.type, element.nodes(), edges.size(), [&](std::size_t i, std::size_t k) {
+            if (k < 2) return (k == 0 ? edges[i].a : edges[i].b).index();
+            return curved_.marker_nodes[(first + i) * (element.nodes() - 2) + k - 2].index();
+        });
     }
     void write_volumes() {
         const std::size_t n = mesh_.points.size();
@@ -287,6 +309,7 @@ private:
     }
 
     MeshView mesh_;
+    const CurvedNodes& curved_;  ///< of order 1 where cells are straight
     CgnsVariant variant_;
     const Extrusion* extrusion_;  ///< null: the mesh is plane
     const fs::path& target_;
@@ -297,10 +320,11 @@ private:
 
 /// Returns a generous estimate of the size of the file. HDF5 crashes the program at its end after a failed write, so a
 /// full disk must be noticed before anything is written.
-std::size_t bytes_needed(const MeshView& mesh, CgnsVariant variant) {
-    const std::size_t plane =
-        24 * mesh.points.size() +
-        sizeof(cgsize_t) * (3 * mesh.triangles.size() + 4 * mesh.quads.size() + 2 * count_marker_edges(mesh));
+std::size_t bytes_needed(const MeshView& mesh, const CurvedNodes& curved, CgnsVariant variant) {
+    const auto nodes = [&](unsigned corners) { return cgns_element(corners, curved.order).nodes(); };
+    const std::size_t plane = 24 * (mesh.points.size() + curved.points.size()) +
+                              sizeof(cgsize_t) * (nodes(3) * mesh.triangles.size() + nodes(4) * mesh.quads.size() +
+                                                  nodes(2) * count_marker_edges(mesh));
     return (variant.extrusion != nullptr ? 2 * variant.extrusion->planes() : 1) * plane +
            50'000 * (8 + mesh.markers.size());
 }
@@ -326,12 +350,12 @@ void require_fit(const MeshView& mesh, const fs::path& file, const Extrusion* ex
 
 }  // namespace
 
-void write_cgns(const MeshView& mesh, const fs::path& file, CgnsVariant variant) {
+void write_cgns(const MeshView& mesh, const CurvedNodes& nodes, const fs::path& file, CgnsVariant variant) {
     require_fit(mesh, file, variant.extrusion);
     core::write_atomically(file, [&](const fs::path& temporary) {
-        core::reserve_room(temporary, file, bytes_needed(mesh, variant));
+        core::reserve_room(temporary, file, bytes_needed(mesh, nodes, variant));
         const std::lock_guard lock(cgns_lock());
-        CgnsWriter(mesh, variant, file).write(temporary);
+        CgnsWriter(mesh, nodes, variant, file).write(temporary);
     });
 }
 

@@ -110,7 +110,13 @@ void write_thick_ugrid(const MeshView& mesh, const fs::path& file, const WriteOp
 template <bool adf, bool three_coordinates>
 void write_cgns_variant(const MeshView& mesh, const fs::path& file, const WriteOptions& options) {
     const Extrusion extrusion = extrusion_of(mesh, file, options);
-    write_cgns(mesh, file, {adf, three_coordinates, options.span > 0 ? &extrusion : nullptr});
+    write_cgns(mesh, {}, file, {adf, three_coordinates, options.span > 0 ? &extrusion : nullptr});
+}
+
+template <bool adf, bool three_coordinates>
+void write_curved_cgns_variant(const MeshView& mesh, const CurvedNodes& nodes, const fs::path& file,
+                               const WriteOptions&) {
+    write_cgns(mesh, nodes, file, {adf, three_coordinates, nullptr});
 }
 #endif
 
@@ -132,19 +138,21 @@ FormatRow su2_row() {
 std::vector<FormatRow> cgns_rows() {
     std::vector<FormatRow> rows;
 #ifdef LAMINA_WITH_CGNS
-    const auto add = [&](const char* name, const char* description, auto write) {
+    const auto add = [&]<bool adf, bool three_coordinates>(const char* name, const char* description) {
         rows.push_back({.name = name,
                         .extensions = {".cgns"},
                         .description = description,
-                        .write = write,
+                        .write = write_cgns_variant<adf, three_coordinates>,
                         .files = one_file,
+                        .write_curved = write_curved_cgns_variant<adf, three_coordinates>,
+                        .read_curved = read_curved_cgns,
                         .read = read_cgns,
                         .takes_span = true,
                         .internal_markers = true});
     };
-    add("cgns", "CGNS, HDF5", write_cgns_variant<false, false>);
-    add("cgns-3d", "CGNS, HDF5, with CoordinateZ = 0", write_cgns_variant<false, true>);
-    add("cgns-adf", "CGNS, ADF", write_cgns_variant<true, false>);
+    add.operator()<false, false>("cgns", "CGNS, HDF5");
+    add.operator()<false, true>("cgns-3d", "CGNS, HDF5, with CoordinateZ = 0");
+    add.operator()<true, false>("cgns-adf", "CGNS, ADF");
 #endif
     return rows;
 }

@@ -147,8 +147,12 @@ struct CgnsVariant {
     bool three_coordinates = false;        ///< writes CoordinateZ = 0, for readers that accept no plane meshes
     const Extrusion* extrusion = nullptr;  ///< writes a mesh in space, which is not read back; null: a plane one
 };
-void write_cgns(const MeshView& mesh, const std::filesystem::path& file, CgnsVariant variant);
+/// Writes a mesh with straight cells, whose nodes are none, or a plane one with curved ones.
+void write_cgns(const MeshView& mesh, const CurvedNodes& nodes, const std::filesystem::path& file, CgnsVariant variant);
+/// Reads a mesh with straight cells.
 Mesh read_cgns(const std::filesystem::path& file);
+/// Reads a mesh with cells of one order.
+CurvedMesh read_curved_cgns(const std::filesystem::path& file);
 /// Reads the mesh and fields at its vertices.
 Solution read_cgns_solution(const std::filesystem::path& file, std::span<const FieldRequest> fields);
 /// Returns the names of all arrays at the vertices.

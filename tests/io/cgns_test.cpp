@@ -5,6 +5,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <string>
 #include <tuple>
@@ -14,12 +15,14 @@
 #include <lamina/io.hpp>
 #include <lamina/solution.hpp>
 
+#include "support/curved_cell.hpp"
 #include "support/sample_meshes.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace lamina {
 namespace {
 
+using test::one_cell;
 using test::TemporaryFolder;
 using test::tiny;
 
@@ -130,6 +133,43 @@ TEST(Cgns, HoldsEverythingThatSolversLookFor) {
         EXPECT_EQ(back.markers[0].kind, MarkerKind::wall);
         EXPECT_EQ(back.markers[1].kind, MarkerKind::far_field);
     }
+}
+
+TEST(Cgns, HoldsCurvedCells) {
+    const TemporaryFolder folder;
+    const std::array<std::array<ElementType_t, 3>, 2> types{{{TRI_6, TRI_10, TRI_15}, {QUAD_9, QUAD_16, QUAD_25}}};
+    for (const std::string format : {"cgns", "cgns-3d", "cgns-adf"})
+        for (const unsigned corners : {3u, 4u})
+            for (unsigned order = 2; order <= max_cell_order; ++order) {
+                const CurvedMesh cell = one_cell(corners, order);
+                write_curved_mesh(cell.mesh, cell.nodes, folder / "m.cgns", {.format = format});
+                int file = 0;
+                ASSERT_EQ(cg_open((folder / "m.cgns").c_str(), CG_MODE_READ, &file), CG_OK);
+                EXPECT_EQ(std::get<1>(sections_of(file)[0]), types[corners - 3][order - 2]);
+                cg_close(file);
+                const CurvedMesh read = read_curved_mesh(folder / "m.cgns");
+                EXPECT_EQ(read.nodes.order, order);
+                EXPECT_EQ(read.nodes.points, cell.nodes.points);
+                EXPECT_EQ(read.nodes.triangle_nodes, cell.nodes.triangle_nodes);
+                EXPECT_EQ(read.nodes.quad_nodes, cell.nodes.quad_nodes);
+                EXPECT_EQ(read.nodes.marker_nodes, cell.nodes.marker_nodes);
+                EXPECT_THROW(read_mesh(folder / "m.cgns"), InputError);
+            }
+}
+
+// The inner nodes of quadrilaterals of order 4 run round their border, counter-clockwise, and end in the middle.
+TEST(Cgns, CurvedQuadsOfOrderFourHaveTheOrderOfTheStandard) {
+    const TemporaryFolder folder;
+    const CurvedMesh cell = one_cell(4, 4);
+    write_curved_mesh(cell.mesh, cell.nodes, folder / "m.cgns");
+    int file = 0;
+    ASSERT_EQ(cg_open((folder / "m.cgns").c_str(), CG_MODE_READ, &file), CG_OK);
+    std::vector<cgsize_t> nodes(25);
+    ASSERT_EQ(cg_elements_read(file, 1, 1, 1, nodes.data(), nullptr), CG_OK);
+    cg_close(file);
+    const std::vector<Point> inner{{1, 1}, {2, 1}, {3, 1}, {3, 2}, {3, 3}, {2, 3}, {1, 3}, {1, 2}, {2, 2}};
+    for (std::size_t k = 0; k < inner.size(); ++k)
+        EXPECT_EQ(4 * cell.nodes.points[static_cast<std::size_t>(nodes[16 + k]) - 5], inner[k]) << k;
 }
 
 TEST(Cgns, HoldsMeshesInSpace) {

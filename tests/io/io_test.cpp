@@ -16,6 +16,7 @@
 
 #include "core/parallel.hpp"
 #include "mesh/cell_lattice.hpp"
+#include "support/curved_cell.hpp"
 #include "support/sample_meshes.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -136,19 +137,9 @@ TEST(MeshFiles, VtuHasCurvedCellsInTheOrderOfVtk) {
     const TemporaryFolder folder;
     for (const unsigned corners : {3u, 4u})
         for (unsigned p = 2; p <= max_cell_order; ++p) {
-            Mesh mesh{.points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
-            if (corners == 3) mesh.points = {{0, 0}, {1, 0}, {0, 1}};
-            if (corners == 3)
-                mesh.triangles = {{{VertexId{0u}, VertexId{1u}, VertexId{2u}}}};
-            else
-                mesh.quads = {{{VertexId{0u}, VertexId{1u}, VertexId{2u}, VertexId{3u}}}};
-            CurvedNodes nodes{.order = p};
             const auto lattice = mesh::lattice_of_cell(corners, p);
-            for (std::size_t n = corners; n < lattice.size(); ++n) {
-                nodes.points.push_back({double(lattice[n].i) / p, double(lattice[n].j) / p});
-                (corners == 3 ? nodes.triangle_nodes : nodes.quad_nodes).push_back(VertexId(n));
-            }
-            write_curved_mesh(mesh, nodes, folder / "m.vtu");
+            const CurvedMesh cell = test::one_cell(corners, p);
+            write_curved_mesh(cell.mesh, cell.nodes, folder / "m.vtu");
             const std::string file = folder.read("m.vtu");
             const auto points = vtu_array<double>(file, "Points", 3 * lattice.size());
             const auto connectivity = vtu_array<std::int64_t>(file, "connectivity", lattice.size());
