@@ -40,7 +40,7 @@ OWNERS = {name: "core" for name in ("angle_bounds", "conditions", "error", "expo
                                     "length", "limits", "marker_names", "option", "point", "predicates", "ranks", "threads",
                                     "value_range", "version", "warning")}
 OWNERS["transformation"] = "geometry"
-OWNERS["compressible_flow"] = "flow"
+OWNERS["compressible_flow"] = OWNERS["coupled_flow"] = "flow"
 OWNERS["solution"] = "io"
 OWNERS["metric"] = "io"
 OWNERS["solution_sizes"] = "adaptation"

@@ -117,11 +117,10 @@ nb::dict find_flow(const nb::list& given, const std::vector<std::pair<std::strin
     if (!found.compressible) {
         facts["mach"] = options.conditions.mach ? nb::cast(*options.conditions.mach) : nb::none();
         facts["has_layers"] = found.has_layers;
-        const FlowForces forces = flow_forces(found.flow);
-        facts["moment"] = forces.moment;
+        facts["moment"] = found.forces.moment;
         if (found.has_layers) {
-            facts["drag"] = forces.drag;
-            facts["viscous_drag"] = forces.drag;
+            facts["drag"] = found.forces.drag;
+            facts["viscous_drag"] = found.forces.drag;
         }
     }
     return facts;

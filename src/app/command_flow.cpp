@@ -29,6 +29,7 @@
 #include "app/standard_output.hpp"
 #include "app/summary.hpp"
 #include "app/table_option.hpp"
+#include "app/transition_options.hpp"
 
 namespace lamina::app {
 
@@ -38,6 +39,7 @@ struct FlowArguments {
     std::vector<std::string> inputs, sheets;
     std::map<std::string, std::string> conditions;  ///< values by the names of option_table<FlowConditions>()
     std::map<std::string, std::string> walls;       ///< likewise, of option_table<FarFieldOptions>()
+    std::map<std::string, std::string> transition;  ///< likewise, of option_table<TransitionOptions>()
     std::string table, picture, mach_picture;
 };
 
@@ -70,19 +72,27 @@ std::string side_line(const std::string& name, const std::vector<FlowPoint>& sid
                             largest(&FlowPoint::thickness).thickness, largest(&FlowPoint::skin_friction).skin_friction);
         const auto separated = std::find_if(
             side.begin(), side.end(), [](const FlowPoint& p) { return p.state == BoundaryLayerState::separated; });
+        const auto attached = std::find_if(separated, side.end(),
+                                           [](const FlowPoint& p) { return p.state != BoundaryLayerState::separated; });
         if (separated != side.end())
-            text += fmt::format(", separated from ({:.4g}, {:.4g}) on", separated->at.x, separated->at.y);
+            text += fmt::format(
+                ", separated from ({:.4g}, {:.4g}) {}", separated->at.x, separated->at.y,
+                attached == side.end() ? "on" : fmt::format("to ({:.4g}, {:.4g})", attached->at.x, attached->at.y));
     }
     return summary_line(name, text);
 }
 
-std::string flow_summary(const Flow& flow, bool has_layers) {
+std::string flow_summary(const FoundFlow& found) {
+    const Flow& flow = found.flow;
+    const bool has_layers = found.has_layers;
     std::string text = fmt::format("flow at {} degrees: lift coefficient {:.4f}", flow.alpha_deg, flow.lift);
-    if (has_layers && !flow.estimated) {
-        const FlowForces forces = flow_forces(flow);
-        text += fmt::format(", drag coefficient {:.5f}, moment coefficient {:.4f}", forces.drag, forces.moment);
-    }
+    if (has_layers && !flow.estimated)
+        text +=
+            fmt::format(", drag coefficient {:.5f}, moment coefficient {:.4f}", found.forces.drag, found.forces.moment);
     text += fmt::format(", based on the chord {:.6g}\n", flow.chord);
+    if (found.transition)
+        text += fmt::format("layers turbulent from {:.4f} of the extent in x on the upper, {:.4f} on the lower side\n",
+                            found.transition->upper, found.transition->lower);
     for (const ElementFlow& element : flow.elements) {
         text += fmt::format("{}: lift coefficient {:.4f}, stagnation point ({:.5g}, {:.5g})\n", element.name,
                             element.lift, element.stagnation.x, element.stagnation.y);
@@ -197,10 +207,10 @@ struct FlowText {
     std::optional<CompressibleFlow> compressible{};  ///< where the flow is faster than sound
 };
 
-FlowText flow_text(const Flow& flow, const std::string& before, bool has_layers) {
-    std::vector<ChartCurve> curves = pressure_curves(flow);
+FlowText flow_text(const FoundFlow& found, const std::string& before) {
+    std::vector<ChartCurve> curves = pressure_curves(found.flow);
     const std::array<double, 2> pressures = pressures_shown(curves);
-    return {flow_table(flow), before + flow_summary(flow, has_layers), std::move(curves), pressures};
+    return {flow_table(found.flow), before + flow_summary(found), std::move(curves), pressures};
 }
 
 FlowText flow_text(CompressibleFlow flow) {
@@ -238,7 +248,7 @@ FlowText flow_text(FoundFlow found, const std::optional<double>& mach) {
                     "Mach {:.4g} is below the critical Mach number, but for short peaks: pressures and lift of "
                     "incompressible flow, after Karman and Tsien\n",
                     *mach);
-    return flow_text(found.flow, before, found.has_layers);
+    return flow_text(found, before);
 }
 
 std::vector<RunFile> files_written(const FlowArguments& arguments) {
@@ -250,11 +260,11 @@ std::vector<RunFile> files_written(const FlowArguments& arguments) {
 }
 
 /// Computes the flow at each angle of attack, and prints and writes the polar.
-void write_flow_polar(const FlowArguments& arguments, const CaseOptions& options, const Geometry& geometry,
-                      std::span<const RunFile> outputs) {
+void write_flow_polar(const FlowArguments& arguments, const CaseOptions& options, const TransitionOptions& transition,
+                      const Geometry& geometry, std::span<const RunFile> outputs) {
     if (!arguments.mach_picture.empty())
         throw UsageError("option --mach-picture: shows one flow: give one angle of attack");
-    const auto& [conditions, rows] = flow_polar(geometry, options);
+    const auto& [conditions, rows] = flow_polar(geometry, options, transition);
     if (!arguments.table.empty()) write_file(arguments.table, polar_text(arguments.table, conditions, rows));
     if (!arguments.picture.empty()) {
         ChartCurve lift{"lift coefficient", {}};
@@ -276,6 +286,7 @@ void flow(const FlowArguments& arguments) {
     for (const auto& [name, value] : arguments.conditions)
         set_by_name(option_table<FlowConditions>(), name, value, conditions);
     validate(conditions);
+    const TransitionOptions transition = transition_options(arguments.transition);
     const std::vector<RunFile> outputs = files_written(arguments);
     require_distinct(files_of_case(mesh_case), outputs);
     for (const RunFile& output : outputs) check_folder_writable(output.path);
@@ -289,8 +300,8 @@ void flow(const FlowArguments& arguments) {
     options.conditions = conditions;
     const Geometry geometry = read_geometry(mesh_case.inputs, options.geometry);
     print_warnings_of_reader(geometry);
-    if (conditions.alphas) return write_flow_polar(arguments, options, geometry, outputs);
-    const FlowText text = flow_text(find_flow(geometry, options), conditions.mach);
+    if (conditions.alphas) return write_flow_polar(arguments, options, transition, geometry, outputs);
+    const FlowText text = flow_text(find_flow(geometry, options, transition), conditions.mach);
     if (!arguments.mach_picture.empty() && !text.compressible)
         throw UsageError(
             "option --mach-picture: at this Mach number the flow is slower than sound, but for short peaks");
@@ -312,6 +323,7 @@ void add_flow_command(CLI::App& app) {
     add_repeated_table_option(*command, option_table<GeometryOptions>(), "sheet", arguments->sheets);
     for (const char* name : {"alpha", "mach", "reynolds", "velocity", "viscosity", "chord"})
         add_table_option(*command, option_table<FlowConditions>(), name, arguments->conditions[name]);
+    add_transition_options(*command, arguments->transition);
     for (const char* name : {"ground", "tunnel", "periodic"})
         add_table_option(*command, option_table<FarFieldOptions>(), name, arguments->walls[name]);
     command

@@ -1,5 +1,6 @@
 // lamina polar: forces at many angles of attack, by a flow solver or by lamina's own flow.
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <string>
 
@@ -12,6 +13,7 @@
 #include "app/polar_run.hpp"
 #include "app/standard_output.hpp"
 #include "app/table_option.hpp"
+#include "app/transition_options.hpp"
 
 namespace lamina::app {
 
@@ -21,6 +23,7 @@ constexpr const char* own_flow = "flow";
 
 struct PolarArguments {
     std::string solver = own_flow, folder, turbulence;
+    std::map<std::string, std::string> transition;
     GivenOptions mesh;
 };
 
@@ -35,7 +38,7 @@ void polar(const PolarArguments& arguments) {
     set_by_name(option_table<SolverCaseOptions>(), "turbulence", arguments.turbulence, options);
     const auto& [conditions, rows] =
         arguments.solver == own_flow
-            ? run_polar_of_flow(settings, mesh_case)
+            ? run_polar_of_flow(settings, mesh_case, transition_options(arguments.transition))
             : run_polar_of_solver(settings, mesh_case, *adapt_solver(arguments.solver, options));
     if (!mesh_case.quiet) print_result(polar_summary(conditions, rows));
     const auto loose = std::count_if(rows.begin(), rows.end(), [](const PolarRow& row) { return !row.steady; });
@@ -50,11 +53,10 @@ void add_polar_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand("polar", "compute lift and drag at many angles of attack");
     auto arguments = std::make_shared<PolarArguments>();
     command
-        ->add_option(
-            "--solver", arguments->solver,
-            "flow: potential flow with boundary layers, without a mesh, for attached flow; openfoam, su2, or a "
-            "command, as for lamina adapt: on one mesh that serves all angles, each from the flow of the one "
-            "before [flow]")
+        ->add_option("--solver", arguments->solver,
+                     "flow: a panel method with boundary layers, without a mesh; openfoam, su2, or a "
+                     "command, as for lamina adapt: on one mesh that serves all angles, each from the flow of the one "
+                     "before [flow]")
         ->type_name("flow|openfoam|su2|COMMAND")
         ->group("Polar");
     command
@@ -66,6 +68,7 @@ void add_polar_command(CLI::App& app) {
         ->type_name("FOLDER")
         ->group("Polar");
     add_table_option(*command, option_table<SolverCaseOptions>(), "turbulence", arguments->turbulence)->group("Polar");
+    add_transition_options(*command, arguments->transition);
     arguments->mesh =
         add_mesh_options(*command, {"output", "format", "order", "parts", "span", "span-cells", "span-ends",
                                     "wall-distance", "stream", "wall-data", "report", "html"});

@@ -4,6 +4,37 @@
 
 namespace lamina::app {
 
+namespace {
+
+bool can_be_coupled(const Geometry& geometry, const ReferenceConditions& reference, const FlowWalls& walls) {
+    constexpr double least_reynolds = 1e4;
+    return geometry.elements.size() == 1 && reference.reynolds >= least_reynolds && !walls.below && !walls.above &&
+           !walls.pitch;
+}
+
+/// Puts flows that were solved with their layers in the places of those that are not compressible.
+void add_coupled_flows(std::vector<FoundFlow>& found, std::vector<CoupledFlow> flows) {
+    auto next = flows.begin();
+    for (FoundFlow& flow : found) {
+        if (flow.compressible) continue;
+        flow.flow = std::move(next->flow);
+        flow.forces = next->forces;
+        flow.loose = !next->converged;
+        if (next->converged) flow.transition = {next->transition_upper, next->transition_lower};
+        ++next;
+    }
+}
+
+/// Gives a flow the pressures, lift and moment of compressible flow.
+void compress(FoundFlow& found, double mach) {
+    found.flow = with_compressed_pressures(std::move(found.flow), mach);
+    const FlowForces forces = flow_forces(found.flow);
+    found.forces.lift = forces.lift;
+    found.forces.moment = forces.moment;
+}
+
+}  // namespace
+
 Geometry in_row(Geometry geometry, const CaseOptions& options) {
     const FarFieldOptions& domain = options.far_field;
     if (!domain.pitch) return geometry;
@@ -11,22 +42,34 @@ Geometry in_row(Geometry geometry, const CaseOptions& options) {
     return blade_row(std::move(geometry), in_units(*domain.pitch, chord), domain.stagger_deg);
 }
 
-FoundFlow find_flow(Geometry geometry, const CaseOptions& options) {
-    geometry = in_row(std::move(geometry), options);
-    const double chord = reference_conditions(options.conditions, reference_box(geometry)).chord;
-    const FlowWalls walls = flow_walls(geometry, options);
-    return find_flow(geometry, prepare_surfaces(geometry, options.surface, chord), options.conditions, walls);
+FoundFlow find_flow(Geometry geometry, const CaseOptions& options, const TransitionOptions& transition) {
+    return std::move(find_flows(std::move(geometry), options, {&options.conditions, 1}, transition).front());
 }
 
-FoundFlow find_flow(const Geometry& given, const Geometry& prepared, const FlowConditions& conditions,
-                    const FlowWalls& walls) {
-    FoundFlow found{.flow = solve_flow(prepared, conditions, walls),
-                    .has_layers = reference_conditions(conditions, reference_box(given)).reynolds.has_value()};
-    if (is_beyond_critical(found.flow, conditions)) {
-        found.compressible = solve_compressible_flow(given, conditions);
-    } else if (conditions.mach) {
-        found.flow = with_compressed_pressures(std::move(found.flow), *conditions.mach);
+std::vector<FoundFlow> find_flows(Geometry geometry, const CaseOptions& options,
+                                  std::span<const FlowConditions> conditions, const TransitionOptions& transition) {
+    geometry = in_row(std::move(geometry), options);
+    const ReferenceConditions reference = reference_conditions(options.conditions, reference_box(geometry));
+    const FlowWalls walls = flow_walls(geometry, options);
+    const Geometry prepared = prepare_surfaces(geometry, options.surface, reference.chord);
+    const bool coupled = can_be_coupled(prepared, reference, walls);
+    std::vector<FoundFlow> found;
+    std::vector<FlowConditions> to_couple;
+    for (const FlowConditions& each : conditions) {
+        FoundFlow& flow = found.emplace_back();
+        flow.has_layers = reference.reynolds.has_value();
+        if (!coupled || each.mach) flow.flow = solve_flow(prepared, each, walls);
+        if (each.mach && is_beyond_critical(flow.flow, each))
+            flow.compressible = solve_compressible_flow(geometry, each);
+        else if (coupled)
+            to_couple.push_back(each);
+        else
+            flow.forces = flow_forces(flow.flow);
     }
+    if (!to_couple.empty()) add_coupled_flows(found, solve_coupled_flow(prepared, to_couple, transition));
+    if (reference.mach)
+        for (FoundFlow& flow : found)
+            if (!flow.compressible) compress(flow, *reference.mach);
     return found;
 }
 

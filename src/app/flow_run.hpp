@@ -2,28 +2,41 @@
 #pragma once
 
 #include <optional>
+#include <span>
+#include <vector>
 
 #include <lamina/compressible_flow.hpp>
+#include <lamina/coupled_flow.hpp>
 #include <lamina/flow.hpp>
 #include <lamina/pipeline.hpp>
 
 namespace lamina::app {
 
+/// Where the layers of a section become turbulent, as shares of its extent in x.
+struct TransitionPlaces {
+    double upper, lower;
+};
+
 /// The flow that its conditions ask for.
 struct FoundFlow {
-    Flow flow;  ///< potential flow; with a Mach number, its pressures are compressible
+    Flow flow;          ///< incompressible flow; with a Mach number, its pressures are compressible
+    FlowForces forces;  ///< of it
+    std::optional<TransitionPlaces> transition{};    ///< where flow and layers were solved together
     std::optional<CompressibleFlow> compressible{};  ///< with shocks, where the flow is faster than sound
     bool has_layers = false;                         ///< whether a Reynolds number is known
+    bool loose = false;  ///< whether flow and layers were to be solved together, and no solution was found
 };
 
 /// Returns the bodies as one blade of a row, where the options ask for it.
 Geometry in_row(Geometry geometry, const CaseOptions& options);
 
-/// Solves compressible flow where it is faster than sound, else potential flow with boundary layers, whose pressures are
-/// those of compressible flow where there is a Mach number. Throws OptionError for options out of range.
-FoundFlow find_flow(Geometry geometry, const CaseOptions& options);
-/// Finds the flow at conditions beside those of the options. `given` are the bodies as read, in_row(), and `prepared` those with smooth walls.
-FoundFlow find_flow(const Geometry& given, const Geometry& prepared, const FlowConditions& conditions,
-                    const FlowWalls& walls);
+/// Solves compressible flow where it is faster than sound, else incompressible flow, whose pressures are those of compressible
+/// flow where there is a Mach number. One section without walls has boundary layers that displace its flow
+/// (solve_coupled_flow()), from a Reynolds number of 1e4 on, all others layers that do not. Throws OptionError for options out
+/// of range.
+FoundFlow find_flow(Geometry geometry, const CaseOptions& options, const TransitionOptions& transition = {});
+/// Finds the flow at each of these conditions, of one chord, in their order.
+std::vector<FoundFlow> find_flows(Geometry geometry, const CaseOptions& options,
+                                  std::span<const FlowConditions> conditions, const TransitionOptions& transition);
 
 }  // namespace lamina::app

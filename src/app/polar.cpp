@@ -33,16 +33,28 @@ double transition_on(const std::vector<FlowPoint>& side, const Box& box) {
     return turbulent == side.end() ? 1 : (turbulent->at.x - box.lower.x) / box.width();
 }
 
-bool is_attached(const Flow& flow) {
+/// Returns whether all layers are attached up to the last part of their walls. Bubbles, behind which a layer comes back, count
+/// where that is said.
+bool is_attached(const Flow& flow, bool bubbles_count) {
     for (const ElementFlow& element : flow.elements)
-        for (const auto* side : {&element.upper, &element.lower})
-            for (const FlowPoint& p : *side)
-                if (p.state == BoundaryLayerState::separated && p.s < attached_share * side->back().s) return false;
+        for (const auto* side : {&element.upper, &element.lower}) {
+            bool separated = false;
+            for (const FlowPoint& p : *side) {
+                if (p.s >= attached_share * side->back().s) break;
+                separated = p.state == BoundaryLayerState::separated || (bubbles_count && separated);
+            }
+            if (separated) return false;
+        }
     return true;
 }
 
-void add_transition(const Flow& flow, PolarRow& row) {
-    const ElementFlow& element = longest(flow);
+void add_transition(const FoundFlow& found, PolarRow& row) {
+    if (found.transition) {
+        row.top_xtr = found.transition->upper;
+        row.bottom_xtr = found.transition->lower;
+        return;
+    }
+    const ElementFlow& element = longest(found.flow);
     Box box;
     for (const auto* side : {&element.upper, &element.lower})
         for (const FlowPoint& p : *side) box.include(p.at);
@@ -50,7 +62,8 @@ void add_transition(const Flow& flow, PolarRow& row) {
     row.bottom_xtr = transition_on(element.lower, box);
 }
 
-PolarRow row_of_potential_flow(const Flow& flow, bool has_layers) {
+PolarRow row_of_incompressible_flow(const FoundFlow& found) {
+    const Flow& flow = found.flow;
     PolarRow row{.alpha_deg = flow.alpha_deg, .state = "attached"};
     if (flow.estimated) {
         row.state = "failed";
@@ -58,22 +71,21 @@ PolarRow row_of_potential_flow(const Flow& flow, bool has_layers) {
         row.note = flow.warnings.front().message;
         return row;
     }
-    const FlowForces forces = flow_forces(flow);
-    row.cl = forces.lift;
-    row.cm = forces.moment;
-    if (!has_layers) {
+    row.cl = found.forces.lift;
+    row.cm = found.forces.moment;
+    if (!found.has_layers) {
         row.state = "inviscid";
         return row;
     }
-    row.cd = forces.drag;
-    row.cdp = forces.drag - forces.friction_drag;
-    add_transition(flow, row);
-    if (!is_attached(flow)) {
+    row.cd = found.forces.drag;
+    row.cdp = found.forces.drag - found.forces.friction_drag;
+    add_transition(found, row);
+    if (!is_attached(flow, !found.transition)) {
         row.state = "separated";
-        row.steady = false;
+        row.steady = found.transition.has_value();
     }
     if (!flow.warnings.empty()) {
-        row.state = "stalled";
+        row.state = found.loose ? "not coupled" : "stalled";
         row.steady = false;
         row.note = flow.warnings.front().message;
     }
@@ -92,8 +104,7 @@ PolarRow row_of_compressible_flow(const CompressibleFlow& flow) {
 }
 
 PolarRow row_of_flow(const FoundFlow& found) {
-    return found.compressible ? row_of_compressible_flow(*found.compressible)
-                              : row_of_potential_flow(found.flow, found.has_layers);
+    return found.compressible ? row_of_compressible_flow(*found.compressible) : row_of_incompressible_flow(found);
 }
 
 std::string column(const std::optional<double>& value, int width, int digits) {
@@ -115,14 +126,15 @@ PolarConditions polar_conditions(const Geometry& geometry, const ReferenceCondit
     return conditions;
 }
 
-FlowPolar flow_polar(Geometry geometry, const CaseOptions& options) {
-    geometry = in_row(std::move(geometry), options);
-    const ReferenceConditions reference = reference_conditions(options.conditions, reference_box(geometry));
-    FlowPolar polar{polar_conditions(geometry, reference), {}};
-    const Geometry prepared = prepare_surfaces(geometry, options.surface, reference.chord);
-    const FlowWalls walls = flow_walls(geometry, options);
-    for (const FlowConditions& conditions : conditions_of_angles(options.conditions))
-        polar.rows.push_back(row_of_flow(find_flow(geometry, prepared, conditions, walls)));
+FlowPolar flow_polar(Geometry geometry, const CaseOptions& options, const TransitionOptions& transition) {
+    FlowPolar polar{polar_conditions(geometry, reference_conditions(options.conditions, reference_box(geometry))), {}};
+    bool coupled = false;
+    for (const FoundFlow& found :
+         find_flows(std::move(geometry), options, conditions_of_angles(options.conditions), transition)) {
+        polar.rows.push_back(row_of_flow(found));
+        coupled = coupled || found.transition;
+    }
+    if (coupled) polar.conditions.transition = transition;
     return polar;
 }
 
@@ -167,15 +179,17 @@ Json polar_json(const PolarConditions& conditions, std::span<const PolarRow> row
 }
 
 std::string polar_of_xfoil(const PolarConditions& conditions, std::span<const PolarRow> rows) {
+    const TransitionOptions transition = conditions.transition.value_or(TransitionOptions{.critical_exponent = 0});
     // Readers of the format look for what stands in these columns and lines.
     std::string text = fmt::format(
         " \n       XFOIL         Version 6.99\n  \n Calculated polar for: {:<48}\n  \n"
         " 1 1 Reynolds number fixed          Mach number fixed         \n  \n"
-        " xtrf =   1.000 (top)        1.000 (bottom)  \n"
-        " Mach = {:7.3f}     Re = {:9.3f} e 6     Ncrit =   0.000\n  \n"
+        " xtrf = {:7.3f} (top)    {:9.3f} (bottom)  \n"
+        " Mach = {:7.3f}     Re = {:9.3f} e 6     Ncrit = {:7.3f}\n  \n"
         "   alpha    CL        CD       CDp       CM     Top_Xtr  Bot_Xtr\n"
         "  ------ -------- --------- --------- -------- -------- --------\n",
-        conditions.name, conditions.mach.value_or(0), 1e-6 * conditions.reynolds.value_or(0));
+        conditions.name, transition.trip.value_or(1), transition.trip_lower.value_or(transition.trip.value_or(1)),
+        conditions.mach.value_or(0), 1e-6 * conditions.reynolds.value_or(0), transition.critical_exponent);
     for (const PolarRow& row : rows)
         if (row.steady && row.cl && row.cd && row.cdp && row.cm && row.top_xtr && row.bottom_xtr)
             text += fmt::format("{:8.3f} {:8.4f} {:9.5f} {:9.5f} {:8.4f} {:8.4f} {:8.4f}\n", row.alpha_deg, *row.cl,

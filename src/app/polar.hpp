@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <lamina/coupled_flow.hpp>
 #include <lamina/flow.hpp>
 #include <lamina/geometry.hpp>
 #include <lamina/pipeline.hpp>
@@ -29,6 +30,7 @@ struct PolarRow {
 struct PolarConditions {
     std::string name;  ///< of the configuration: its files, or its elements where they have none
     std::optional<double> reynolds{}, mach{};
+    std::optional<TransitionOptions> transition{};  ///< where flow and layers are solved together
 };
 
 /// A polar.
@@ -40,10 +42,10 @@ struct FlowPolar {
 /// Returns what the rows of a polar of these bodies have in common.
 PolarConditions polar_conditions(const Geometry& geometry, const ReferenceConditions& reference);
 
-/// Returns the polar of the flow before the mesh at the angles of the options (FlowConditions::alphas): potential flow with
-/// boundary layers, or compressible flow where it is faster than sound. Rows whose flow leaves a wall ahead of the trailing
-/// edge are not steady: the method is none for separated flow.
-FlowPolar flow_polar(Geometry geometry, const CaseOptions& options);
+/// Returns the polar of the flow before the mesh at the angles of the options (FlowConditions::alphas), find_flows(). Where
+/// layers do not displace the flow, rows whose flow leaves a wall ahead of the trailing edge are not steady: that method is none
+/// for separated flow.
+FlowPolar flow_polar(Geometry geometry, const CaseOptions& options, const TransitionOptions& transition = {});
 
 /// Returns the rows for people.
 std::string polar_summary(const PolarConditions& conditions, std::span<const PolarRow> rows);

@@ -202,7 +202,8 @@ std::vector<RunFile> prepare_folder(const fs::path& folder, std::span<const char
 
 }  // namespace
 
-FlowPolar run_polar_of_flow(const PolarSettings& settings, const MeshCase& mesh_case) {
+FlowPolar run_polar_of_flow(const PolarSettings& settings, const MeshCase& mesh_case,
+                            const TransitionOptions& transition) {
     require_consistent(mesh_case);
     require_inputs(mesh_case);
     const SignalGuard guard(prepare_folder(settings.folder, files_of_flow));
@@ -211,7 +212,7 @@ FlowPolar run_polar_of_flow(const PolarSettings& settings, const MeshCase& mesh_
         throw UsageError(settings.folder.string() + ": holds the polar of a solver: give another folder");
     const CaseOptions& options = mesh_case.options;
     const Geometry geometry = read_geometry(mesh_case.inputs, options.geometry);
-    FlowPolar polar = flow_polar(geometry, options);
+    FlowPolar polar = flow_polar(geometry, options, transition);
     write_polar(settings.folder, files_of_flow, polar);
     return polar;
 }

@@ -18,7 +18,8 @@ struct PolarSettings {
 
 /// Returns the polar by lamina's own flow, without a mesh, and writes its files. Throws UsageError for the folder of a
 /// polar by a solver.
-FlowPolar run_polar_of_flow(const PolarSettings& settings, const MeshCase& mesh_case);
+FlowPolar run_polar_of_flow(const PolarSettings& settings, const MeshCase& mesh_case,
+                            const TransitionOptions& transition);
 
 /// Returns the polar by a solver, on one mesh that serves all angles. Each angle has a folder FOLDER/alpha_N with its case,
 /// which appears once it is complete, with row.json; angles that are there are kept. Each begins with the flow of the last

@@ -83,18 +83,14 @@ void add_far_copy(std::span<double> row, const Body& body, Point p, const Image&
         }
 }
 
-/// Returns the stream function of the base of a body at a point for unit speed at its trailing edge. That of sources
-/// needs the angle of the direction from the base's first end to the point, measured from the base, which must not
-/// jump along a body. `is_at_start` marks that end, where there is no such angle.
+/// Returns the stream function of the base of a body at a point for unit speed at its trailing edge
+/// (source_stream_function()).
 double base_stream_function(const Body& body, Point p, double direction_angle, bool is_at_start) {
     const LoggedNode a = see_with_log(body.nodes.back(), p), b = see_with_log(body.nodes.front(), p);
     const SeenPanel panel = see_panel(a, b, body.base_length, body.base_along);
-    const double vortices = -body.base_strength * integrate_log(panel, a, b).constant;
-    const double log_ratio = log_of_ratio(b, a);
-    const double angles = is_at_start ? core::pi * panel.length
-                                      : panel.length * direction_angle +
-                                            (panel.length - panel.xi) * panel.signed_angle() - panel.eta * log_ratio;
-    return (vortices + body.base_source * angles) / (2 * core::pi);
+    return (body.base_source * source_stream_function(panel, a, b, direction_angle, is_at_start) -
+            body.base_strength * integrate_log(panel, a, b).constant) /
+           (2 * core::pi);
 }
 
 /// Adds to the rows of a body what an image of the base of another one, or of its own, gives to the stream function at its
@@ -151,6 +147,7 @@ void add_kutta_conditions(std::vector<double>& matrix, std::size_t size, const B
 struct Bodies {
     std::vector<Body> bodies;
     FlowWalls walls;
+    double unit_length;  ///< of the units
 };
 
 Bodies make_bodies(std::span<const Contour> contours, const FlowWalls& walls) {
@@ -160,7 +157,7 @@ Bodies make_bodies(std::span<const Contour> contours, const FlowWalls& walls) {
     for (const Contour& contour : contours)
         for (const Point p : contour.nodes) box.include(p);
     const double unit_length = std::max(box.width(), box.height());
-    Bodies result;
+    Bodies result{{}, {}, unit_length};
     std::size_t column = 0;
     for (const Contour& contour : contours) {
         result.bodies.push_back(make_body(contour, column, box.lower, unit_length));
@@ -197,22 +194,34 @@ void add_sheets(std::vector<double>& matrix, std::size_t size, const Body& at, s
             if (of.blunt) add_base(matrix, size, at, of, image);
 }
 
+std::size_t system_size(std::span<const Body> bodies) { return bodies.back().column + bodies.back().nodes.size() + 1; }
+
+/// Returns the matrix of the stream functions at all nodes and of the Kutta conditions.
+std::vector<double> make_matrix(std::span<const Body> bodies, std::span<const Image> images) {
+    const std::size_t size = system_size(bodies);
+    std::vector<double> matrix(size * size);
+    for (const Body& at : bodies) {
+        add_sheets(matrix, size, at, bodies, images);
+        const std::size_t constant = at.column + at.nodes.size();
+        for (std::size_t i = at.column; i < constant; ++i) matrix[i * size + constant] = -1;
+        add_kutta_conditions(matrix, size, at);
+    }
+    return matrix;
+}
+
 /// Returns the strengths in the free stream, those that each body in turn adds whose trailing edge has a unit of circulating
 /// flow round it, contrary to its Kutta condition, and those in a unit stream along y.
 std::vector<std::vector<double>> solve_strengths(std::span<const Body> bodies, std::span<const Image> images,
                                                  Point stream) {
-    const std::size_t size = bodies.back().column + bodies.back().nodes.size() + 1;
-    std::vector<double> matrix(size * size), right_side(size), upright(size);
+    const std::size_t size = system_size(bodies);
+    std::vector<double> right_side(size), upright(size);
     std::vector<std::vector<double>> right_sides(1);
     for (const Body& at : bodies) {
-        add_sheets(matrix, size, at, bodies, images);
         const std::size_t constant = at.column + at.nodes.size();
         for (std::size_t i = 0; i < at.nodes.size(); ++i) {
-            matrix[(at.column + i) * size + constant] = -1;
             right_side[at.column + i] = -cross(stream, at.nodes[i]);
             upright[at.column + i] = -cross({0, 1}, at.nodes[i]);
         }
-        add_kutta_conditions(matrix, size, at);
         if (!at.blunt) right_side[constant - 1] = upright[constant - 1] = 0;
         std::vector<double>& turning = right_sides.emplace_back(size);
         turning[constant] = 1;
@@ -220,7 +229,7 @@ std::vector<std::vector<double>> solve_strengths(std::span<const Body> bodies, s
     }
     right_sides.front() = std::move(right_side);
     right_sides.push_back(std::move(upright));
-    return solve_dense(std::move(matrix), right_sides);
+    return solve_dense(make_matrix(bodies, images), right_sides);
 }
 
 std::vector<PanelSheet> make_sheets(std::span<const Contour> contours, std::span<const Body> bodies,
@@ -280,7 +289,7 @@ Point leaving_direction(std::span<const Point> nodes) {
 
 PanelSolution solve_panels(std::span<const Contour> contours, double alpha_deg, const FlowWalls& walls) {
     if (contours.empty()) return {};
-    const auto [bodies, scaled_walls] = make_bodies(contours, walls);
+    const auto [bodies, scaled_walls, unit_length] = make_bodies(contours, walls);
     std::vector<Image> images{{false, 0, 1}};  // the bodies themselves first
     for (const Image& image : images_in(scaled_walls)) images.push_back(image);
     std::vector<std::vector<double>> strengths = solve_strengths(bodies, images, free_stream(alpha_deg));
@@ -309,6 +318,22 @@ PanelSolution solve_panels(std::span<const Contour> contours, double alpha_deg, 
     solution.without_lift = rounded(make_sheets(contours, bodies, strengths.front()));
     solution.sheets = rounded(std::move(solution.sheets));
     return solution;
+}
+
+std::vector<double> strengths_per_stream_function(const Contour& contour) {
+    const auto [bodies, walls, unit_length] = make_bodies({&contour, 1}, {});
+    const std::size_t n = contour.nodes.size(), size = system_size(bodies);
+    std::vector<std::vector<double>> units;
+    for (std::size_t j = 0; j < n; ++j) {
+        units.emplace_back(size);
+        if (contour.blunt || j + 1 < n) units[j][j] = -1 / unit_length;
+    }
+    const std::vector<Image> images{{false, 0, 1}};
+    const std::vector<std::vector<double>> columns = solve_dense(make_matrix(bodies, images), units);
+    std::vector<double> result(n * n);
+    for (std::size_t j = 0; j < n; ++j)
+        for (std::size_t i = 0; i < n; ++i) result[i * n + j] = columns[j][i];
+    return result;
 }
 
 SheetVelocity::SheetVelocity(const Flow& flow)

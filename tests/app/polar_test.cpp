@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/program.hpp"
+#include "support/geometry_fixtures.hpp"
 
 namespace lamina::test {
 namespace {
@@ -24,14 +25,14 @@ TEST(FlowPolar, IsPrintedAndWrittenAsXfoilDoes) {
     ASSERT_EQ(said.size(), 2u + 12u) << run.out;
     EXPECT_NE(said[2].find("-4.000"), std::string::npos) << said[2];
     EXPECT_NE(said[2].find("attached"), std::string::npos) << said[2];
-    EXPECT_NE(said.back().find("stalled"), std::string::npos) << said.back();
+    EXPECT_NE(said.back().find("separated"), std::string::npos) << said.back();
     const std::vector<std::string> rows = lines_of(folder.read("a.txt"));
     ASSERT_GT(rows.size(), 12u + 5u);
-    EXPECT_EQ(rows[8], " Mach =   0.000     Re =     3.000 e 6     Ncrit =   0.000");
+    EXPECT_EQ(rows[8], " Mach =   0.000     Re =     3.000 e 6     Ncrit =   9.000");
     EXPECT_EQ(rows[10], "   alpha    CL        CD       CDp       CM     Top_Xtr  Bot_Xtr");
-    // Columns have the widths of XFOIL's; rows that are not steady are left out.
+    // Columns have the widths of XFOIL's.
     for (std::size_t i = 12; i < rows.size(); ++i) EXPECT_EQ(rows[i].size(), rows[11].size()) << rows[i];
-    EXPECT_LT(rows.size(), 12u + 12u);
+    EXPECT_EQ(rows.size(), 12u + 12u);
     EXPECT_EQ(run_lamina(folder, {"flow", "naca:0012", "--alpha=0:2", "-o", "b.csv"}).exit_code, 0);
     EXPECT_EQ(lines_of(folder.read("b.csv")).size(), 4u);
     EXPECT_NE(folder.read("b.csv").find("inviscid"), std::string::npos);
@@ -77,27 +78,43 @@ TEST(PolarCommand, WritesThePolarOfTheFlowAndSaysWhereItIsStalled) {
     ASSERT_EQ(run.exit_code, 0) << run.err;
     for (const char* file : {"out/polar.csv", "out/polar.json", "out/polar.txt"})
         EXPECT_TRUE(fs::exists(folder / file)) << file;
+    // Layers of several elements do not displace the flow.
+    folder.write("two.dat", fixtures::two_999);
     const ProgramRun stalled =
-        run_lamina(folder, {"polar", "naca:0012", "--alpha", "0:20:10", "--reynolds", "3e6", "-o", "out"});
+        run_lamina(folder, {"polar", "two.dat", "--alpha", "0:30:30", "--reynolds", "3e6", "-o", "two"});
     EXPECT_EQ(stalled.exit_code, mesh_failed);
-    EXPECT_NE(stalled.err.find("1 of 3 angles are not steady"), std::string::npos) << stalled.err;
-    EXPECT_NE(folder.read("out/polar.csv").find(",stalled,no"), std::string::npos);
+    EXPECT_NE(stalled.err.find("2 of 2 angles are not steady"), std::string::npos) << stalled.err;
+    EXPECT_NE(folder.read("two/polar.csv").find(",stalled,no"), std::string::npos);
     const TemporaryFolder empty;
     expect_refused(empty, {"polar", "naca:0012", "--alpha", "4", "-o", "out"}, usage, "a polar needs a range");
     expect_refused(empty, {"polar", "naca:0012", "--alpha", "0:4", "--order", "2", "-o", "out"}, usage, "--order");
 }
 
-TEST(PolarCommand, SeparatedFlowIsNotSteady) {
+TEST(PolarCommand, BendsBeyondStall) {
     const TemporaryFolder folder;
     const ProgramRun run = run_lamina(
-        folder, {"polar", "naca:0012", "--alpha", "8:14:6", "--velocity", "45", "--viscosity", "1.5e-5", "-o", "out"});
-    EXPECT_EQ(run.exit_code, mesh_failed);
-    EXPECT_NE(run.err.find("1 of 2 angles are not steady"), std::string::npos) << run.err;
-    EXPECT_NE(folder.read("out/polar.csv").find(",separated,no"), std::string::npos);
-    EXPECT_EQ(lines_of(folder.read("out/polar.txt")).size(), 12u + 1u);
+        folder, {"polar", "naca:0012", "--alpha", "8:20:6", "--velocity", "15", "--viscosity", "1.5e-5", "-o", "out"});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_NE(folder.read("out/polar.csv").find(",separated,yes"), std::string::npos);
+    EXPECT_EQ(lines_of(folder.read("out/polar.txt")).size(), 12u + 3u);
     // Velocity and viscosity are a Reynolds number, too.
-    EXPECT_NE(run.out.find("Reynolds number 3e+06"), std::string::npos) << run.out;
-    EXPECT_EQ(nlohmann::json::parse(folder.read("out/polar.json"))["reynolds"], 3e6);
+    EXPECT_NE(run.out.find("Reynolds number 1e+06"), std::string::npos) << run.out;
+    const auto polar = nlohmann::json::parse(folder.read("out/polar.json"));
+    EXPECT_EQ(polar["reynolds"], 1e6);
+    EXPECT_LT(polar["rows"][2]["CL"], polar["rows"][1]["CL"]);
+}
+
+TEST(FlowPolar, TripsAndWavesMakeLayersTurbulent) {
+    const TemporaryFolder folder;
+    const ProgramRun run = run_lamina(folder, {"flow", "naca:0012", "--alpha", "0:2:2", "--reynolds", "1e6", "--trip",
+                                               "0.1", "--trip-lower", "0.2", "--ncrit", "5", "-o", "a.txt"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_NE(run.out.find("  0.1000   0.2000  attached"), std::string::npos) << run.out;
+    const std::vector<std::string> rows = lines_of(folder.read("a.txt"));
+    EXPECT_EQ(rows[7], " xtrf =   0.100 (top)        0.200 (bottom)  ");
+    EXPECT_EQ(rows[8], " Mach =   0.000     Re =     1.000 e 6     Ncrit =   5.000");
+    expect_refused(folder, {"flow", "naca:0012", "--reynolds", "1e6", "--trip", "2"}, usage, "option --trip");
+    expect_refused(folder, {"flow", "naca:0012", "--reynolds", "1e6", "--ncrit", "0"}, usage, "option --ncrit");
 }
 
 TEST(PolarCommand, DragWithoutLayersIsNoDrag) {

@@ -1,0 +1,152 @@
+// Flow and boundary layers solved together, beside XFOIL 6.99, and the equations beside differences.
+#include <lamina/coupled_flow.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "flow/coupled/interval.hpp"
+
+namespace lamina {
+namespace {
+
+std::vector<CoupledFlow> coupled_flows(const Geometry& geometry, double reynolds, std::initializer_list<double> alphas,
+                                       const TransitionOptions& transition = {}) {
+    std::vector<FlowConditions> conditions;
+    for (const double alpha : alphas) conditions.push_back({.alpha_deg = alpha, .reynolds = reynolds});
+    return solve_coupled_flow(geometry, conditions, transition);
+}
+
+Geometry section_of(const char* digits) { return make_geometry({naca_airfoil(digits, 241, TrailingEdge::blunt)}); }
+
+struct XfoilRow {
+    const char* digits;
+    double reynolds, alpha_deg, lift, drag, moment, upper, lower;
+};
+
+/// XFOIL 6.99 with 160 panels and N = 9, on the coordinates of these sections.
+TEST(CoupledFlow, HasTheForcesAndTransitionsOfXfoil) {
+    constexpr double lift_tolerance = 0.01, drag_tolerance = 0.015, moment_tolerance = 0.0015, place_tolerance = 0.01;
+    for (const XfoilRow& row : {XfoilRow{"0012", 1e6, 0, 0.0, 0.00540, 0.0, 0.6870, 0.6870},
+                                XfoilRow{"0012", 1e6, 4, 0.4278, 0.00728, 0.0060, 0.2537, 0.9685},
+                                XfoilRow{"0012", 1e6, 12, 1.2454, 0.01936, 0.0133, 0.0194, 1.0},
+                                XfoilRow{"0012", 2e5, 4, 0.5353, 0.01176, -0.0144, 0.4165, 1.0},
+                                XfoilRow{"4412", 3e6, 0, 0.4865, 0.00597, -0.1036, 0.5196, 0.2581},
+                                XfoilRow{"4412", 3e6, 8, 1.3212, 0.01106, -0.0946, 0.0606, 0.9998},
+                                XfoilRow{"23012", 6e6, 4, 0.5850, 0.00550, -0.0091, 0.1693, 0.8739}}) {
+        const CoupledFlow found = coupled_flows(section_of(row.digits), row.reynolds, {row.alpha_deg}).front();
+        SCOPED_TRACE(testing::Message() << row.digits << " at " << row.alpha_deg);
+        ASSERT_TRUE(found.converged);
+        EXPECT_NEAR(found.forces.lift, row.lift, lift_tolerance * std::max(row.lift, 0.1));
+        EXPECT_NEAR(found.forces.drag, row.drag, drag_tolerance * row.drag);
+        EXPECT_NEAR(found.forces.moment, row.moment, moment_tolerance);
+        EXPECT_NEAR(found.transition_upper, row.upper, place_tolerance);
+        EXPECT_NEAR(found.transition_lower, row.lower, place_tolerance);
+    }
+}
+
+TEST(CoupledFlow, LiftBendsBeyondStallAsThatOfXfoil) {
+    const std::vector<CoupledFlow> flows = coupled_flows(section_of("0012"), 1e6, {12, 14, 16, 18});
+    for (const CoupledFlow& flow : flows) EXPECT_TRUE(flow.converged);
+    EXPECT_NEAR(flows[2].forces.lift, 1.3877, 0.02);
+    EXPECT_LT(flows[3].forces.lift, flows[2].forces.lift);
+    EXPECT_NEAR(flows[3].forces.drag, 0.08786, 0.008);
+    const auto separated = [](const FlowPoint& p) { return p.state == BoundaryLayerState::separated; };
+    const std::vector<FlowPoint>& side = flows[3].flow.elements.front().upper;
+    EXPECT_TRUE(std::any_of(side.begin(), side.end(), separated));
+}
+
+TEST(CoupledFlow, TripsMakeLayersTurbulent) {
+    const Geometry section = section_of("0012");
+    const CoupledFlow tripped = coupled_flows(section, 3e6, {4}, {.trip = 0.05}).front();
+    ASSERT_TRUE(tripped.converged);
+    EXPECT_NEAR(tripped.forces.lift, 0.4543, 0.004);
+    EXPECT_NEAR(tripped.forces.drag, 0.00929, 0.0001);
+    EXPECT_NEAR(tripped.transition_upper, 0.05, 1e-6);
+    const CoupledFlow noisy = coupled_flows(section, 3e6, {4}, {.critical_exponent = 4}).front(),
+                      quiet = coupled_flows(section, 3e6, {4}).front();
+    EXPECT_LT(noisy.transition_upper, quiet.transition_upper);
+    EXPECT_GT(noisy.forces.drag, quiet.forces.drag);
+}
+
+TEST(CoupledFlow, IsMirroredAndScaledWithTheSection) {
+    Geometry section = make_geometry({naca_airfoil("2412", 200)}), flipped = section, large = section;
+    std::vector<Point>&mirrored = flipped.elements[0].points, &scaled = large.elements[0].points;
+    for (Point& p : mirrored) p.y = -p.y;
+    std::reverse(mirrored.begin(), mirrored.end());
+    for (Point& p : scaled) p = 4 * p;
+    flipped = make_geometry({element_of_points(mirrored, "flipped")});
+    large = make_geometry({element_of_points(scaled, "large")});
+    const CoupledFlow a = coupled_flows(section, 1e6, {3}).front(), b = coupled_flows(flipped, 1e6, {-3}).front(),
+                      c = coupled_flows(large, 1e6, {3}).front();
+    ASSERT_TRUE(a.converged && b.converged && c.converged);
+    EXPECT_NEAR(a.forces.lift, -b.forces.lift, 1e-3);
+    EXPECT_NEAR(a.forces.drag, b.forces.drag, 1e-5);
+    EXPECT_NEAR(a.transition_upper, b.transition_lower, 1e-3);
+    EXPECT_NEAR(a.forces.lift, c.forces.lift, 1e-9);
+    EXPECT_NEAR(a.forces.drag, c.forces.drag, 1e-9);
+}
+
+TEST(CoupledFlow, SharpTrailingEdgesHaveNearlyTheLiftOfThinBases) {
+    const CoupledFlow sharp = coupled_flows(make_geometry({naca_airfoil("0012", 200)}), 1e6, {2}).front(),
+                      blunt = coupled_flows(section_of("0012"), 1e6, {2}).front();
+    ASSERT_TRUE(sharp.converged && blunt.converged);
+    EXPECT_NEAR(sharp.forces.lift, blunt.forces.lift, 0.04 * blunt.forces.lift);
+}
+
+namespace coupled = flow::coupled;
+
+/// Compares the derivatives of equations by the numbers of both stations with differences.
+template <class F>
+void expect_derivatives(const coupled::Station& a, const coupled::Station& b, F&& equations) {
+    constexpr double step = 1e-6, tolerance = 2e-4;
+    const coupled::Equations exact = equations(a, b);
+    const std::array members{&coupled::Station::shear, &coupled::Station::momentum, &coupled::Station::displacement,
+                             &coupled::Station::speed};
+    for (std::size_t slot = 0; slot < 8; ++slot) {
+        const auto value = [&](double sign) {
+            coupled::Station p = a, q = b;
+            coupled::Station& changed = slot < 4 ? p : q;
+            changed.*members[slot % 4] *= 1 + sign * step;
+            return equations(p, q);
+        };
+        const double size = (slot < 4 ? a : b).*members[slot % 4];
+        const coupled::Equations more = value(1), less = value(-1);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const double difference = (more[i].value - less[i].value) / (2 * step);
+            EXPECT_NEAR(exact[i].by[slot] * size, difference, tolerance * (1 + std::abs(difference)))
+                << "equation " << i << ", slot " << slot;
+        }
+    }
+}
+
+TEST(LayerEquations, HaveTheDerivativesOfDifferences) {
+    const coupled::LayerConditions conditions{1e-6, 9};
+    const coupled::Station a{0.30, 5, 4.0e-4, 1.1e-3, 1.15}, b{0.32, 6, 4.2e-4, 1.2e-3, 1.14},
+        c{0.30, 8.5, 4.0e-4, 1.3e-3, 1.15}, d{0.32, 0.05, 5.2e-4, 1.4e-3, 1.10}, e{0.60, 0.06, 1.5e-3, 2.6e-3, 1.0},
+        f{0.62, 0.07, 1.6e-3, 2.9e-3, 0.98}, g{1.02, 0.07, 3e-3, 4.5e-3, 0.9, 3e-4},
+        h{1.04, 0.06, 3.1e-3, 4.3e-3, 0.92, 1e-4};
+    const auto in = [&](coupled::Regime regime) {
+        return
+            [&, regime](const auto& p, const auto& q) { return coupled::interval_equations(p, q, regime, conditions); };
+    };
+    expect_derivatives(a, b, in(coupled::Regime::laminar));
+    expect_derivatives(e, f, in(coupled::Regime::turbulent));
+    expect_derivatives(g, h, in(coupled::Regime::wake));
+    expect_derivatives(c, d, [&](const auto& p, const auto& q) {
+        return coupled::transition_equations(p, q, std::nullopt, conditions);
+    });
+    expect_derivatives(
+        c, d, [&](const auto& p, const auto& q) { return coupled::transition_equations(p, q, 0.305, conditions); });
+}
+
+TEST(LayerEquations, ALaminarPlateHasTheFrictionOfBlasius) {
+    const coupled::Dual friction = coupled::skin_friction(2.591, 500, coupled::Regime::laminar);
+    EXPECT_NEAR(friction.value * 500, 0.441, 0.03 * 0.441);
+}
+
+}  // namespace
+}  // namespace lamina
