@@ -133,6 +133,9 @@ inline constexpr double max_end_ratio = 2.0;
 
 // Border.
 
+/// Gaps narrower than this share of an edge do not divide it further.
+inline constexpr double min_gap_share = 1.0 / 128;
+
 /// Targets are constant on intervals of an edge that are this share of the target long.
 inline constexpr double interval_share = 0.5;
 

@@ -59,6 +59,57 @@ core::BoxTree segment_tree(const Segments& segments) {
     return core::BoxTree(std::move(boxes));
 }
 
+// The lengths that edges of fronts request of their surroundings: their own, or the width of a gap that they face.
+
+/// Returns the distance of two segments that do not cross.
+double segment_distance(Point a, Point b, const PolygonEdge& other) {
+    return std::min({core::distance_to_segment(a, other.a, other.b), core::distance_to_segment(b, other.a, other.b),
+                     core::distance_to_segment(other.a, a, b), core::distance_to_segment(other.b, a, b)});
+}
+
+/// Returns the edges that lie across a gap from this one, no farther away than about its length.
+std::vector<const PolygonEdge*> edges_across(std::span<const PolygonEdge> edges, const core::BoxTree& tree,
+                                             std::size_t i) {
+    std::vector<const PolygonEdge*> across;
+    const PolygonEdge& edge = edges[i];
+    Box near = core::bounding_box(edge.a, edge.b);
+    near.lower = near.lower - Point{edge.length, edge.length};
+    near.upper = near.upper + Point{edge.length, edge.length};
+    tree.overlaps(near, [&](std::size_t j) {
+        const PolygonEdge& other = edges[j];
+        if (j == i || j == edge.previous || j == edge.next) return;
+        const Point u = edge.b - edge.a, v = other.b - other.a;
+        if (dot(u, v) > 0) return;  // a corner rather than a gap
+        // Each must lie on the right of the other, where the outside is.
+        const Point between = midpoint(other.a, other.b) - midpoint(edge.a, edge.b);
+        if (cross(u, between) < 0 && cross(v, between) > 0) across.push_back(&other);
+    });
+    return across;
+}
+
+/// Adds the sources of the part a-b of an edge.
+void add_part_sources(Point a, Point b, double requested_length, std::span<const PolygonEdge* const> across,
+                      std::vector<SizeSource>& sources) {
+    const double length = distance(a, b);
+    double gap = HUGE_VAL;
+    for (const PolygonEdge* other : across) gap = std::min(gap, segment_distance(a, b, *other));
+    if (gap < requested_length && gap < length && length > min_gap_share * requested_length) {
+        const Point middle = midpoint(a, b);
+        add_part_sources(a, middle, requested_length, across, sources);
+        add_part_sources(middle, b, requested_length, across, sources);
+        return;
+    }
+    sources.push_back({a, b, std::clamp(gap, min_gap_share * requested_length, requested_length)});
+}
+
+/// Adds the sources of one edge, in order from its start to its end. A gap counts where it is: the edge is halved until
+/// its parts are no longer than the gap that they face. A part requests the width of the gap, or `requested_length` if
+/// that is less. tree: the tree over the edges.
+void add_edge_sources(std::span<const PolygonEdge> edges, const core::BoxTree& tree, std::size_t edge,
+                      double requested_length, std::vector<SizeSource>& sources) {
+    add_part_sources(edges[edge].a, edges[edge].b, requested_length, edges_across(edges, tree, edge), sources);
+}
+
 /// A stretch of an edge and the target length of the edges on it.
 struct TargetInterval {
     double length, target;
@@ -76,7 +127,9 @@ public:
         : edges_(edges),
           gradation_(std::min(options.gradation, 1 - 1 / options.max_ratio) / alike),
           max_target_(options.max_edge / alike) {
-        for (const PolygonEdge& edge : edges_) sources_.push_back({edge.a, edge.b, edge.requested});
+        const core::BoxTree edge_tree = segment_tree(edges_);
+        for (std::size_t i = 0; i < edges_.size(); ++i)
+            add_edge_sources(edges_, edge_tree, i, edges_[i].requested, sources_);
         for (SizeSource source : options.sources) {
             source.size /= alike;
             sources_.push_back(source);
