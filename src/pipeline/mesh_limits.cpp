@@ -61,7 +61,7 @@ BorderForecast forecast_border(const Geometry& walls, std::size_t element, const
     // Measured in slots of 1e-4 to 1e-6 chords: opposing layers leave about a quarter of a gap to isotropic triangles,
     // and edges of the border are about as long as that.
     constexpr double edge_over_gap = 0.28;
-    // The parts that gaps divide an edge of the border into, at most (layers/gap_sources.cpp).
+    // The parts that gaps divide an edge of the border into, at most (layers/border/divide_borders.cpp).
     constexpr double max_parts = 128;
     const Element& wall = walls.elements[element];
     const std::vector<Point>& p = wall.points;
