@@ -12,9 +12,9 @@ namespace lamina::layers {
 
 /// The upper end of a column.
 struct ColumnEnd {
-    double height;            ///< of the front, along the ray
-    double last_spacing;      ///< height of the last layer with the number that is wanted
-    std::uint32_t wanted;     ///< number of layers
+    double height;         ///< of the front, along the ray
+    double last_spacing;   ///< height of the last layer with the number that is wanted
+    std::uint32_t wanted;  ///< number of layers
     LayerRange layers;     ///< numbers of layers with which a stretch can keep the front where it is
 };
 
