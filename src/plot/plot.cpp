@@ -175,7 +175,7 @@ void draw_drawn_cells(Canvas& canvas, const DrawnEdges& edges, const DrawnCells&
 void draw(cairo_surface_t* surface, const Mesh& mesh, const CurvedNodes& nodes, const PictureView& view,
           const PlotOptions& options) {
     const DrawnEdges edges(mesh, nodes);
-    const std::vector<VisibleCell> cells = visible_cells(mesh, view.window);
+    const std::vector<VisibleCell> cells = visible_cells(mesh, view.window, nodes);
     const CellColors colors = color_cells(mesh, cells, options.color);
     const LineWidths widths = line_widths(cells, view);
     const bool colored = options.color != PlotColor::none;

@@ -9,6 +9,7 @@
 #include <lamina/places.hpp>
 
 #include "core/bounding_box.hpp"
+#include "mesh/curved_nodes.hpp"
 
 namespace lamina::plot {
 
@@ -69,7 +70,7 @@ double VisibleCell::thickness() const {
     return longest > 0 ? area() / longest : 0;
 }
 
-std::vector<VisibleCell> visible_cells(const Mesh& mesh, const Box& window) {
+std::vector<VisibleCell> visible_cells(const Mesh& mesh, const Box& window, const CurvedNodes& nodes) {
     std::vector<VisibleCell> visible;
     const auto add_if_visible = [&](std::size_t number, const auto& v) {
         VisibleCell cell{number, std::size(v), {}, {}};
@@ -79,6 +80,9 @@ std::vector<VisibleCell> visible_cells(const Mesh& mesh, const Box& window) {
             cell.corner[i] = mesh.points[v[i].index()];
             box.include(cell.corner[i]);
         }
+        if (nodes.order > 1)
+            for (const VertexId node : mesh::inner_nodes(mesh, nodes, number))
+                box.include(nodes.points[node.index() - mesh.points.size()]);
         if (box.overlaps(window)) visible.push_back(cell);
     };
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) add_if_visible(t, mesh.triangles[t].v);

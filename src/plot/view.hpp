@@ -40,6 +40,7 @@ struct VisibleCell {
     double thickness() const;
 };
 
-std::vector<VisibleCell> visible_cells(const Mesh& mesh, const Box& window);
+/// Returns the cells whose boxes overlap the window, with their nodes where they are curved.
+std::vector<VisibleCell> visible_cells(const Mesh& mesh, const Box& window, const CurvedNodes& nodes = {});
 
 }  // namespace lamina::plot
