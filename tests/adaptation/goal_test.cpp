@@ -79,9 +79,12 @@ TEST(Goal, CurvaturesOfWallsAreThoseAlongThem) {
             const auto curvatures = adaptation::goal_curvatures_of_walls(solution, GoalOptions{}, walls, 0.5);
             ASSERT_EQ(curvatures.size(), 1u);
             ASSERT_EQ(curvatures[0].size(), walls[0].size());
-            for (std::size_t i = 0; i < walls[0].size(); ++i)
-                if (walls[0][i].at.x > 0.2 && walls[0][i].at.x < 0.8)
-                    ASSERT_NEAR(curvatures[0][i], 3, 0.3) << walls[0][i].at.x;
+            for (std::size_t i = 0; i < walls[0].size(); ++i) {
+                const double x = walls[0][i].at.x;
+                if (x > 0.2 && x < 0.8) {
+                    ASSERT_NEAR(curvatures[0][i], 3, 0.3) << x;
+                }
+            }
         }
     }
 }

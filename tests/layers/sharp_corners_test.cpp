@@ -215,9 +215,7 @@ TEST(SharpCorners, KeepTheirRayWhereSidesBulge) {
         jagged_geometry(shapes::refined(cleft, 3));  // rays fit on the third vertices, the convex ones
     EXPECT_EQ(corners_without_rays(grow_rays(coarse, high, test::growth_of(high))), 0u);
     std::mt19937 random(5);
-    const auto real = [&](double low, double high) {
-        return std::uniform_real_distribution<double>(low, high)(random);
-    };
+    const auto real = [&](double from, double to) { return std::uniform_real_distribution<double>(from, to)(random); };
     for (int round = 0; round < 20; ++round) {
         SCOPED_TRACE(round);
         Outline outline;
