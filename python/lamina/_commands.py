@@ -113,8 +113,8 @@ class Flow(Values):
 
 @with_options
 def flow(sections: Sections, **options: Unpack[MeshOptions]) -> Flow:
-    """Computes the flow round sections without a mesh, as `lamina flow` does: potential flow with boundary layers, or
-    the Euler equations with their displacement where `mach` makes it faster than sound.
+    """Computes the flow round sections without a mesh, as `lamina flow` does: incompressible flow with boundary layers,
+    which displace that of a single section, or the Euler equations where `mach` makes it faster than sound.
 
     Of the options of `lamina.mesh()` those of the flow count (`alpha`, `mach`, `reynolds`, `chord`, ...), of the geometry,
     and of walls outside (`ground`, `tunnel`, `periodic`). Raises OptionError, InputError and IoError.

@@ -10,6 +10,8 @@ namespace lamina::flow::coupled {
 
 namespace {
 
+/// Layers with larger shape factors do not follow prescribed speeds.
+constexpr double laminar_limit = 3.8, turbulent_limit = 2.5;
 constexpr double first_shear = 0.03;  // of layers that have just become turbulent, to begin with
 
 /// The fourth equation of a station, beside those of the interval: a combination of its unknowns that is 0.
@@ -74,34 +76,62 @@ public:
         return false;
     }
 
+    /// Returns the shape factor that a station gets whose layer would separate: that of the station before with a slope as laminar
+    /// layers have in bubbles, and turbulent ones behind them. Precondition: there is a station before.
+    double shape_to_prescribe(IntervalKind kind, const Station& b) const {
+        constexpr double laminar_slope = 0.03, turbulent_slope = -0.15;
+        const Station& a = *before_;
+        const double shape = a.shape(), in_momentum = 1 / a.momentum;
+        switch (kind) {
+            case IntervalKind::first:
+                return 2.2;
+            case IntervalKind::laminar:
+                return std::max(shape + laminar_slope * (b.x - a.x) * in_momentum, laminar_limit);
+            case IntervalKind::transition: {
+                const double place = transition_place(a, b, trip_, conditions_);
+                return std::max(shape + (laminar_slope * (place - a.x) + turbulent_slope * (b.x - place)) * in_momentum,
+                                turbulent_limit);
+            }
+            case IntervalKind::turbulent:
+                return std::max(shape + turbulent_slope * (b.x - a.x) * in_momentum, turbulent_limit);
+            case IntervalKind::wake:
+                return std::max(shape - 0.05 * (shape - 1), 1.01);
+        }
+        return turbulent_limit;
+    }
+
 private:
     const Station* before_;
     const LayerConditions& conditions_;
     const std::optional<double>& trip_;
 };
 
-/// Returns the shape factor that a station gets whose layer would separate: that of the station before with a slope as laminar
-/// layers have in bubbles, and turbulent ones behind them.
-double shape_to_prescribe(IntervalKind kind, const Station& a, const Station& b, const std::optional<double>& trip,
-                          const LayerConditions& conditions) {
-    constexpr double laminar_slope = 0.03, turbulent_slope = -0.15, laminar_limit = 3.8, turbulent_limit = 2.5;
-    const double shape = a.shape(), in_momentum = 1 / a.momentum;
-    switch (kind) {
-        case IntervalKind::first:
-            return 2.2;
-        case IntervalKind::laminar:
-            return std::max(shape + laminar_slope * (b.x - a.x) * in_momentum, laminar_limit);
-        case IntervalKind::transition: {
-            const double place = transition_place(a, b, trip, conditions);
-            return std::max(shape + (laminar_slope * (place - a.x) + turbulent_slope * (b.x - place)) * in_momentum,
-                            turbulent_limit);
-        }
-        case IntervalKind::turbulent:
-            return std::max(shape + turbulent_slope * (b.x - a.x) * in_momentum, turbulent_limit);
-        case IntervalKind::wake:
-            return std::max(shape - 0.05 * (shape - 1), 1.01);
+/// Gives a station the layer of the one before, and a prescribed speed, to begin with.
+void begin_from(const Station* before, double speed, bool turbulent, Station& b) {
+    if (before) {
+        b.momentum = before->momentum;
+        b.displacement = before->displacement - before->base + b.base;
+        if (turbulent) b.shear = before->shear;
     }
-    return turbulent_limit;
+    b.speed = speed;
+}
+
+/// Solves a station with the law of the speed. Where `before` is given and the layer does not follow the law, it gets a
+/// prescribed shape factor instead. It stays as it was where no solution is found.
+template <class Kind>
+void lead_to_station(const StationSolver& solver, const Kind& kind, const SpeedLaw& law, const Station* before,
+                     Station& b) {
+    const Station given = b;
+    bool solved = solver.solve(b, kind, [&](const Station& now) { return close_by_law(law, now); });
+    const IntervalKind found = kind(b);
+    const double highest = found == IntervalKind::laminar ? laminar_limit : turbulent_limit;
+    if (before && (!solved || (found != IntervalKind::wake && b.shape() > highest))) {
+        b = given;
+        solved = solver.solve(b, kind, [&](const Station& now) {
+            return close_by_shape(solver.shape_to_prescribe(kind(now), now), now);
+        });
+    }
+    if (!solved) b = given;
 }
 
 }  // namespace
@@ -156,16 +186,6 @@ void lead_layers(Stretch& stretch, std::vector<Station>& stations, const LayerCo
     for (std::size_t k = in_wake ? 1 : 0; k <= last; ++k) {
         const Station* before = k > 0 ? &stations[stretch.places[k - 1]] : nullptr;
         Station& b = stations[stretch.places[k]];
-        const SpeedLaw answer = law(stretch.places[k]);
-        if (prescribed && before) {
-            const double x = b.x, base = b.base, shear = in_wake || !laminar ? before->shear : b.shear;
-            b = *before;
-            b.x = x;
-            b.shear = shear;
-            b.displacement += base - b.base;
-            b.base = base;
-        }
-        if (prescribed) b.speed = answer.speed;
         const auto kind = [&](const Station& now) {
             if (in_wake) return IntervalKind::wake;
             if (!before) return IntervalKind::first;
@@ -174,17 +194,10 @@ void lead_layers(Stretch& stretch, std::vector<Station>& stations, const LayerCo
                               grown_exponent(*before, now, conditions) >= conditions.critical_exponent;
             return ends ? IntervalKind::transition : IntervalKind::laminar;
         };
-        const StationSolver solver(before, conditions, stretch.trip);
-        const Station given = b;
-        bool solved = solver.solve(b, kind, [&](const Station& now) { return close_by_law(answer, now); });
-        const double highest = laminar && kind(b) == IntervalKind::laminar ? 3.8 : 2.5;
-        if (prescribed && before && (!solved || (!in_wake && b.shape() > highest))) {
-            b = given;
-            solved = solver.solve(b, kind, [&](const Station& now) {
-                return close_by_shape(shape_to_prescribe(kind(now), *before, now, stretch.trip, conditions), now);
-            });
-        }
-        if (!solved) b = given;
+        const SpeedLaw answer = law(stretch.places[k]);
+        if (prescribed) begin_from(before, answer.speed, !laminar, b);
+        lead_to_station(StationSolver(before, conditions, stretch.trip), kind, answer, prescribed ? before : nullptr,
+                        b);
         if (laminar && before && kind(b) == IntervalKind::transition) {
             laminar = false;
             stretch.transition = k;

@@ -135,8 +135,7 @@ private:
     /// displacement d speed) / speed.
     void follow(const Equations& equations, double direction, const std::size_t* before, std::size_t place) {
         const Station& b = at(place);
-        SmallSystem<3, 6> rows;  // right sides: three changes before, flux before, flux here, residual
-        std::array<double, 3> by_shift{};
+        SmallSystem<3, 7> rows;  // right sides: three changes before, flux before, flux here, residual, way
         for (std::size_t i = 0; i < 3; ++i) {
             const auto& by = equations[i].by;
             rows[i] = {by[shear2],
@@ -147,32 +146,26 @@ private:
                        0,
                        0,
                        -by[displacement2] / b.speed,
-                       -equations[i].value};
-            if (before) {
-                const Station& a = at(*before);
-                rows[i][5] = -(by[speed1] - by[displacement1] * a.displacement / a.speed);
-                rows[i][6] = -by[displacement1] / a.speed;
-            }
-            by_shift[i] = -by[shift] * direction;
+                       -equations[i].value,
+                       -by[shift] * direction};
+            if (!before) continue;
+            const Station& a = at(*before);
+            rows[i][5] = -(by[speed1] - by[displacement1] * a.displacement / a.speed);
+            rows[i][6] = -by[displacement1] / a.speed;
         }
-        SmallSystem<3, 7> all;
-        for (std::size_t i = 0; i < 3; ++i) {
-            std::copy(rows[i].begin(), rows[i].end(), all[i].begin());
-            all[i][9] = by_shift[i];
-        }
-        solve_small<3, 7>(all);
+        solve_small<3, 7>(rows);
         for (std::size_t i = 0; i < 3; ++i) {
             std::vector<double>& row = changes_[place][i];
             row.assign(n_ + 2, 0);
             if (before) {
                 const Changes& a = changes_[*before];
                 for (std::size_t j = 0; j < n_ + 2; ++j)
-                    row[j] = all[i][3] * a[0][j] + all[i][4] * a[1][j] + all[i][5] * a[2][j];
-                row[*before] += all[i][6];
+                    row[j] = rows[i][3] * a[0][j] + rows[i][4] * a[1][j] + rows[i][5] * a[2][j];
+                row[*before] += rows[i][6];
             }
-            row[place] += all[i][7];
-            row[constant()] += all[i][8];
-            row[shifting()] += all[i][9];
+            row[place] += rows[i][7];
+            row[constant()] += rows[i][8];
+            row[shifting()] += rows[i][9];
         }
     }
 
