@@ -19,7 +19,9 @@
 #include "app/commands.hpp"
 #include "app/format_help.hpp"
 #include "app/mesh_command_options.hpp"
+#include "app/mesh_run.hpp"
 #include "app/morph_sequence.hpp"
+#include "app/options.hpp"
 #include "app/progress.hpp"
 #include "app/report.hpp"
 #include "app/run_files.hpp"
@@ -42,10 +44,18 @@ struct MorphArguments {
 
 bool is_case_to_morph(const std::string& file) { return file.ends_with(".toml"); }
 
+MeshCase case_to_morph(const std::string& file) {
+    MeshCase mesh_case = case_of_inputs({file});
+    require_whole(mesh_case);
+    require_straight(mesh_case);
+    require_consistent(mesh_case);
+    return mesh_case;
+}
+
 /// Reads the mesh, or makes that of a case file.
 Mesh reference_mesh(const MorphArguments& arguments) {
     if (is_case_to_morph(arguments.mesh)) {
-        const MeshCase mesh_case = case_of_inputs({arguments.mesh});
+        const MeshCase mesh_case = case_to_morph(arguments.mesh);
         return generate_mesh(mesh_case.inputs, options_with_files(mesh_case)).mesh;
     }
     return read_valid_mesh(arguments.mesh, arguments.mesh_format);
@@ -88,7 +98,7 @@ void require_one_way(const MorphArguments& arguments) {
 
 std::vector<RunFile> files_to_read(const MorphArguments& arguments) {
     std::vector<RunFile> files = is_case_to_morph(arguments.mesh)
-                                     ? files_of_case(case_of_inputs({arguments.mesh}))
+                                     ? files_of_case(case_to_morph(arguments.mesh))
                                      : files_of_mesh(arguments.mesh, arguments.mesh_format);
     for (const std::string& shape : arguments.shapes)
         if (!shape.starts_with("naca:")) files.push_back({shape, "option --to"});

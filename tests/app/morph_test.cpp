@@ -186,6 +186,12 @@ TEST(MorphCommand, MakesTheMeshOfACase) {
     const ProgramRun run = run_lamina(folder, {"morph", "case.toml", "--to", "naca:0011:100", "-o", "thinner.vtu"});
     ASSERT_EQ(run.exit_code, 0) << run.err;
     expect_same_cells(folder, "thinner.vtu");
+    for (const auto& [line, said] : {std::pair{"order = 2", "option --order"},
+                                     {"stream = true", "option --stream"},
+                                     {"surface = \"keep\"\nexact_points = 50", "exact-points"}}) {
+        folder.write("case.toml", std::string("input = \"naca:0012:100\"\n") + line + "\n");
+        expect_refused(folder, {"morph", "case.toml", "--to", "naca:0011:100", "-o", "new.vtu"}, usage, said);
+    }
 }
 
 TEST(MorphCommand, RefusesWhatItCannotUse) {
