@@ -145,7 +145,9 @@ struct MorphReport {
 
 /// Measures both meshes. Throws InputError for another number of points.
 LAMINA_EXPORT MorphReport compare_morphed(const MorphMap& map, std::span<const Point> points);
-/// Measures both meshes, of which the latter may have other cells between the same vertices.
+/// Measures both meshes, of which the latter may have other cells between the same vertices, as those of reconnect() are.
+/// Throws InputError for another number of points, and where the walls have other vertices. Precondition: check_mesh()
+/// finds no defect.
 LAMINA_EXPORT MorphReport compare_morphed(const MorphMap& map, const Mesh& morphed);
 
 }  // namespace lamina

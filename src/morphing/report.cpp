@@ -80,6 +80,7 @@ MorphReport compare_morphed(const MorphMap& map, const Mesh& morphed) {
     MorphReport report{.before = morphing::measure_quality(reference), .after = morphing::measure_quality(morphed)};
     const WallVertices& walls = map.walls();
     const WallVertices moved = wall_vertices(morphed);
+    if (moved.vertex != walls.vertex) throw InputError({}, "the walls of the mesh have other vertices");
     for (std::size_t i = 0; i < walls.vertex.size(); ++i) {
         const double before = walls.first_height[i], change = std::abs(moved.first_height[i] / before - 1);
         if (!(change > report.max_first_height_change)) continue;

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <lamina/error.hpp>
 #include <lamina/threads.hpp>
 
 #include "morphing/morphing_fixtures.hpp"
@@ -80,6 +81,17 @@ TEST(Morph, MeshesOfOthersHaveTheirRaysFound) {
     const MorphResult result = morph(map, deformed_walls(map, 1.2, 0.01));
     expect_valid(map, result.points);
     EXPECT_LT(compare_morphed(map, result.points).max_first_height_change, 0.01);
+}
+
+TEST(Morph, OnlyMeshesWithTheSameWallsAreCompared) {
+    const Mesh mesh = mesh_to_morph();
+    const MorphMap map(mesh);
+    Mesh other = mesh;
+    other.points.pop_back();
+    EXPECT_THROW(compare_morphed(map, other), InputError);
+    other = mesh;
+    for (Marker& marker : other.markers) marker.kind = MarkerKind::other;
+    EXPECT_THROW(compare_morphed(map, other), InputError);
 }
 
 TEST(Morph, MeshesWithoutLayersMoveToo) {
