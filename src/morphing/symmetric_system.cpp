@@ -1,6 +1,6 @@
-// Source: I. S. Duff, J. K. Reid, The multifrontal solution of indefinite sparse symmetric linear equations, ACM Trans. Math.
-// Softw. 9 (1983), for definite ones: each supernode assembles a dense front from its entries and from what is left of its
-// children's.
+// Source: I. S. Duff, J. K. Reid, The multifrontal solution of indefinite sparse symmetric linear equations, ACM Trans.
+// Math. Softw. 9 (1983), for definite ones: each supernode assembles a dense front from its entries and from what is
+// left of its children's.
 #include "morphing/symmetric_system.hpp"
 
 #include <algorithm>
@@ -37,7 +37,7 @@ struct EliminationPlan {
 
 namespace {
 
-/// Subtrees are independent pieces of work, which threads take, where each makes a smaller share of the work than this one.
+/// Subtrees are independent pieces of work, which threads take, where each makes a smaller share of it than this one.
 constexpr double share_of_subtree = 1. / 64;
 
 /// Returns the matrix, and takes the memory of the entries back.
@@ -87,6 +87,8 @@ EliminationPlan divide(Supernodes nodes) {
             begin = s + 1;
         }
     }
+    // Few supernodes are in no subtree, and thus few subtrees have rows beyond them: on meshes fewer than the columns.
+    assert(plan.places < no_supernode);
     return plan;
 }
 
@@ -171,8 +173,8 @@ private:
     }
 };
 
-/// Gives the rows of supernodes in subtrees that are beyond the subtree places after all columns, for each subtree its own,
-/// so that threads never write to the same place.
+/// Gives the rows of supernodes in subtrees that are beyond the subtree places after all columns, for each subtree its
+/// own, so that threads never write to the same place.
 void separate_subtrees(EliminationPlan& plan) {
     Supernodes& nodes = plan.nodes;
     for (Subtree& subtree : plan.subtrees) {
@@ -273,17 +275,18 @@ SymmetricSystem& SymmetricSystem::operator=(SymmetricSystem&&) noexcept = defaul
 SymmetricSystem::~SymmetricSystem() = default;
 
 SymmetricSystem::SymmetricSystem(std::size_t n, std::vector<Entry> entries) {
-    // Eigen numbers the entries of the matrix by 31 bits: the seven of a row on meshes, and half as many again to order them.
+    // Eigen numbers the entries of the matrix by 31 bits: on meshes seven of a row, half as many more for the order.
     constexpr std::size_t max_rows = std::size_t{1} << 27;
     if (n > max_rows)
         throw MeshError(core::concat("a mesh to morph has at most ", max_rows, " vertices beyond its rays, not ", n));
-    if (n > 0) factors_ = std::make_unique<const Factors>(matrix_of(n, std::move(entries)));
+    if (n == 0) return;
+    const Matrix matrix = matrix_of(n, std::move(entries));
+    factors_ = std::make_unique<const Factors>(matrix);
 }
 
 std::vector<Row> SymmetricSystem::solve(std::span<const Row> right) const {
-    if (!factors_) return {};
-    assert(right.size() == factors_->unknowns());
-    return factors_->solve(right);
+    assert(right.size() == (factors_ ? factors_->unknowns() : 0));
+    return factors_ ? factors_->solve(right) : std::vector<Row>{};
 }
 
 }  // namespace lamina::morphing
