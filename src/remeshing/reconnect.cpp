@@ -1,5 +1,5 @@
-// The triangles of a mesh made better with the vertices that it has. Source: L. A. Freitag, C. Ollivier-Gooch, Tetrahedral mesh
-// improvement using swapping and smoothing, Int. J. Numer. Methods Eng. 40 (1997), in two dimensions.
+// The triangles of a mesh made better with the vertices that it has. Source: L. A. Freitag, C. Ollivier-Gooch,
+// Tetrahedral mesh improvement using swapping and smoothing, Int. J. Numer. Methods Eng. 40 (1997), in two dimensions.
 #include <lamina/remesh.hpp>
 
 #include <cstddef>
@@ -13,15 +13,15 @@ namespace lamina::remeshing {
 
 namespace {
 
-/// Returns the metric in which edges are as long at each vertex as they are on average. Vertices of no such triangle have
-/// edges of length 1.
+/// Returns the metric whose unit of length, at each vertex, is the mean length of the edges of remeshed triangles
+/// there: sizes stay as they are. Vertices without such triangles have the unit matrix, which nothing uses.
 std::vector<MetricTensor> metric_of_edges(const MeshView& mesh) {
     std::vector<double> sum(mesh.points.size(), 0), edges(mesh.points.size(), 0);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         if (!is_remeshed(mesh, t)) continue;
         const auto& v = mesh.triangles[t].v;
-        for (std::size_t i = 0; i < 3; ++i) {
-            const std::size_t a = v[i].index(), b = v[i == 2 ? 0 : i + 1].index();
+        for (unsigned i = 0; i < 3; ++i) {
+            const std::size_t a = v[i].index(), b = v[after(i)].index();
             const double edge = distance(mesh.points[a], mesh.points[b]);
             for (const std::size_t end : {a, b}) {
                 sum[end] += edge;

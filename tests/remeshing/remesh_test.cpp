@@ -266,6 +266,39 @@ TEST(Reconnect, MakesShearedTrianglesBetterAndKeepsVerticesAndLayer) {
     }
 }
 
+TEST(Reconnect, KeepsCellsThatAreNoTrianglesBeyondTheLayer) {
+    const Mesh all_layer = annulus({.rings = 3, .layer_rings = 3});
+    const Mesh kept = reconnect(all_layer);
+    EXPECT_TRUE(same_bytes(kept, all_layer));
+    EXPECT_EQ(kept.layer, all_layer.layer);
+
+    Mesh quads = annulus({.layer_rings = 2, .quads_in_layer = true});
+    const Mesh better = reconnect(quads);
+    ASSERT_EQ(better.quads.size(), quads.quads.size());
+    for (std::size_t q = 0; q < quads.quads.size(); ++q)
+        EXPECT_TRUE(std::equal(std::begin(quads.quads[q].v), std::end(quads.quads[q].v), better.quads[q].v)) << q;
+    EXPECT_EQ(better.constraints, quads.constraints);
+    EXPECT_TRUE(check_mesh(better).valid());
+    EXPECT_TRUE(same_bytes(reconnect(quads), better));
+    quads.region.clear();
+    const std::size_t cells = quads.triangles.size() + quads.quads.size();
+    EXPECT_EQ(reconnect(quads).region.size(), cells);
+}
+
+TEST(Reconnect, OneVertexMovesToTheMiddle) {
+    Mesh mesh{.points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0.9, 0.5}}};
+    mesh.markers = {{"side", MarkerKind::far_field, {}}};
+    for (const std::size_t i : {0, 1, 2, 3}) {
+        const VertexId a{i}, b{(i + 1) % 4};
+        mesh.triangles.push_back({{a, b, VertexId{4u}}});
+        mesh.markers[0].edges.push_back({a, b});
+    }
+    mesh.region.assign(4, Region::isotropic);
+    const Mesh better = reconnect(mesh);
+    EXPECT_TRUE(check_mesh(better).valid());
+    EXPECT_LT(distance(better.points[4], {0.5, 0.5}), 0.05);
+}
+
 /// Beside a border that stays, a metric that asks for edges 1e8 times as short is lowered, and stays one.
 TEST(Remesh, ImmenseMetricsAtBordersStayPositive) {
     const Mesh mesh = airfoil_mesh(true);
