@@ -23,8 +23,8 @@ public:
     ColumnValues(const Mesh& mesh, const SolutionField& field) : values_(cell_values(mesh, field)) {}
 
     double in_cell(std::size_t cell) const { return values_[cell]; }
-    /// Returns the value at this distance from the wall, linear between the middles of cells and constant beyond them. Middles
-    /// rise from `row` on, which is moved to the last one below.
+    /// Returns the value at this distance from the wall, linear between the middles of cells and constant beyond them.
+    /// Middles rise from `row` on, which is moved to the last one below.
     double at_height(const WallFlowEdge& edge, double height, std::size_t& row) const {
         if (edge.column.empty()) return in_cell(edge.cell);
         while (row + 1 < edge.column.size() && edge.middle(row + 1) < height) ++row;
@@ -39,8 +39,8 @@ private:
 };
 
 /// Returns the second derivatives of a field along a wall, each the mean over the column of the edge in the p-norm: the
-/// error of the column is that of a second derivative which is the same at all heights. They are roots of mean squares over
-/// three edges, too.
+/// error of the column is that of a second derivative which is the same at all heights. They are roots of mean squares
+/// over three edges, too.
 EdgeValues column_curvatures(const WallFlow& wall, const ColumnValues& values, double p) {
     EdgeValues squares(wall.size(), 0.0);
     for (std::size_t i = 0; i < wall.size(); ++i) {

@@ -28,20 +28,20 @@ private:
     double back_, ahead_;  ///< distances of the middles
 };
 
-/// Returns means over each edge and those beside it; edges at corners do not count, and have the mean of those beside them.
+/// Returns means over each edge and those beside it; edges at corners do not count, and have the mean of the others.
 EdgeValues means_of_three(const WallFlow& wall, const EdgeValues& values);
 
-/// Returns the second derivatives along walls that fields ask for, where those of each field beyond the walls are multiplied
-/// by its scale; the largest of all fields counts. Those of a field are means in the p-norm over the cells of the layer above
-/// an edge: a shock, whose front ends within the boundary layer, bends little on the wall. Friction, which is no field of the
-/// region beyond, gets as many edges as the fields do.
+/// Returns the second derivatives along walls that fields ask for, where those of each field beyond the walls are
+/// multiplied by its scale; the largest of all fields counts. Those of a field are means in the p-norm over the cells
+/// of the layer above an edge: a shock, whose front ends within the boundary layer, bends little on the wall. Friction,
+/// which is no field of the region beyond, gets as many edges as the fields do.
 std::vector<EdgeValues> wall_curvatures(const Solution& solution, const std::vector<WallFlow>& walls,
                                         std::span<const double> scales, const ErrorNorm& norm);
 
-/// Makes spacings of walls that cost and gain as much as sizes beyond the layer do. A column of N layers with the height H and
-/// the width h has N / h vertices and an error of H c (lambda h^2)^p per unit of the wall, where lambda is the second
-/// derivative along it, a mean over all heights. Beyond the layer there are 1 / (a h^2) vertices and an error of c' (lambda h^2)^p
-/// per unit of area. A last vertex gains the same in both where
+/// Makes spacings of walls that cost and gain as much as sizes beyond the layer do. A column of N layers with the
+/// height H and the width h has N / h vertices and an error of H c (lambda h^2)^p per unit of the wall, where lambda is
+/// the second derivative along it, a mean over all heights. Beyond the layer there are 1 / (a h^2) vertices and an
+/// error of c' (lambda h^2)^p per unit of area. A last vertex gains the same in both where
 ///   h_wall^(2 p + 1) = factor^(2 p + 2) a c' N / (2 c H lambda^p)   and   h = factor lambda^(-p / (2 p + 2)).
 /// Source: A. Loseille, F. Alauzet, SIAM J. Numer. Anal. 49 (2011), with the heights of cells given.
 class WallSizes {

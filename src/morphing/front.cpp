@@ -1,7 +1,7 @@
 // Source: G. H. Golub, C. F. Van Loan, Matrix Computations (4th ed., 2013), section 4.1.2. Without roots,
 // systems of twice the size have factors of just twice the size.
-// Libraries of dense matrices choose the order of sums by the processor, and contract them: their factors have other bits
-// on other machines.
+// Libraries of dense matrices choose the order of sums by the processor, and contract them: their factors have other
+// bits on other machines.
 #include "morphing/front.hpp"
 
 #include <algorithm>
@@ -61,7 +61,7 @@ void subtract_products(const double* rows, const double* columns, std::size_t n,
     numbers = sum;
 }
 
-/// Subtracts the columns of a group from those after them, and divides them by their pivots, which stay on the diagonal.
+/// Subtracts the columns of a group from those after them, and divides them by their pivots, which stay there.
 bool factor_columns(const Panel& panel, std::size_t begin, std::size_t end) {
     for (std::size_t j = begin; j < end; ++j) {
         double* const column = panel.values.data() + j * panel.rows;
@@ -95,7 +95,7 @@ private:
     std::vector<double>& below_;
 };
 
-/// Subtracts the products of rows from the tile on their crossing. On the diagonal and at the end it is only a part of one.
+/// Subtracts the products of rows from the tile on their crossing. On the diagonal and at the end it is a part of one.
 void subtract_tile(const Front& front, const PackedRows& packed, std::size_t first, std::size_t i, std::size_t j) {
     const std::size_t row = first + i * tile, column = first + j * tile;
     const std::size_t rows = std::min(tile, front.rows() - row), columns = std::min(tile, front.rows() - column);

@@ -1,6 +1,6 @@
-// Source: P. R. Amestoy, T. A. Davis, I. S. Duff, An approximate minimum degree ordering algorithm, SIAM J. Matrix Anal.
-// Appl. 17 (1996), as in Eigen. J. W. H. Liu, The role of elimination trees in sparse factorization, SIAM J. Matrix Anal.
-// Appl. 11 (1990). C. Ashcraft, R. Grimes, The influence of relaxed supernode partitions on the
+// Source: P. R. Amestoy, T. A. Davis, I. S. Duff, An approximate minimum degree ordering algorithm, SIAM J. Matrix
+// Anal. Appl. 17 (1996), as in Eigen. J. W. H. Liu, The role of elimination trees in sparse factorization, SIAM J.
+// Matrix Anal. Appl. 11 (1990). C. Ashcraft, R. Grimes, The influence of relaxed supernode partitions on the
 // multifrontal method, ACM Trans. Math. Softw. 15 (1989), for supernodes with entries that are zero.
 #include "morphing/supernodes.hpp"
 
@@ -24,8 +24,8 @@ Numbers minimum_degree_places(const Matrix& lower) {
     return place;
 }
 
-/// Returns the parents in the elimination tree: the first row below the diagonal that a column of the factor has an entry
-/// in. Paths to the roots are shortened as they are walked.
+/// Returns the parents in the elimination tree: the first row below the diagonal that a column of the factor has an
+/// entry in. Paths to the roots are shortened as they are walked.
 Numbers elimination_tree(const Matrix& lower) {
     const Matrix upper = lower.transpose();
     const auto n = static_cast<std::uint32_t>(lower.cols());
@@ -48,7 +48,7 @@ Numbers postorder(const Numbers& parent) {
     Numbers size(n, 1), place(n), next(n, 0);
     for (std::size_t i = 0; i < n; ++i)
         if (parent[i] != no_supernode) size[parent[i]] += size[i];
-    // Parents have higher numbers than children. From the end, each subtree gets the last places of its parent's that are left.
+    // Parents have higher numbers than children. From the end, each subtree gets the last free places of its parent's.
     auto end_of_roots = static_cast<std::uint32_t>(n);
     for (std::size_t i = n; i-- > 0;) {
         std::uint32_t& end = parent[i] == no_supernode ? end_of_roots : next[parent[i]];
@@ -58,7 +58,7 @@ Numbers postorder(const Numbers& parent) {
     return place;
 }
 
-/// Finds the supernodes of columns in postorder. A column goes on with the one before it where it has the same rows below.
+/// Finds the supernodes of columns in postorder. A column goes on with the one before it with the same rows below.
 class SupernodeFinder {
 public:
     SupernodeFinder(const Matrix& lower, const Numbers& tree) : lower_(lower), tree_(tree), marked_(tree.size(), none) {
@@ -144,8 +144,8 @@ private:
     }
 
     /// Takes the node right before a group into it, where that adds few zeros: small supernodes cost more than they.
-    /// The bounds are those of CHOLMOD (Y. Chen, T. A. Davis, W. W. Hager, S. Rajamanickam, Algorithm 887, ACM Trans. Math.
-    /// Softw. 35 (2008)).
+    /// The bounds are those of CHOLMOD (Y. Chen, T. A. Davis, W. W. Hager, S. Rajamanickam, Algorithm 887, ACM Trans.
+    /// Math. Softw. 35 (2008)).
     bool takes_in(Group& group, const Node& node) const {
         const Node& root = nodes_[group.node];
         if (node.below == node.end || below_[node.below] > root.last) return false;

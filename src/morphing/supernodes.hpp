@@ -15,9 +15,9 @@ using Matrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 
 inline constexpr std::uint32_t no_supernode = std::numeric_limits<std::uint32_t>::max();
 
-/// The columns of a factor in groups, the supernodes. Those of one have entries in the same rows below the last of them,
-/// and in all rows of the group, so that dense matrices hold them. Each stands before its parent, which the first row
-/// below it is a column of, and after all other supernodes of its subtree.
+/// The columns of a factor in groups, the supernodes. Those of one have entries in the same rows below the last of
+/// them, and in all rows of the group, so that dense matrices hold them. Each stands before its parent, which the first
+/// row below it is a column of, and after all other supernodes of its subtree.
 struct Supernodes {
     std::vector<std::uint32_t> place;      ///< per unknown: its column
     std::vector<std::uint32_t> first;      ///< per supernode: its first column; and the number of columns at the end

@@ -24,7 +24,7 @@ struct SystemToSolve {
     std::vector<Entry> entries;
 };
 
-/// Returns a matrix whose diagonal exceeds the sum of the rest of its rows, with entries of value -1 between these pairs.
+/// Returns a matrix whose diagonal exceeds the sum of the rest of its rows, with -1 between these pairs.
 SystemToSolve dominant(std::size_t n, const std::vector<std::pair<std::size_t, std::size_t>>& pairs) {
     SystemToSolve system{n, {}};
     const auto add = [&](std::size_t i, std::size_t j, double value) {
