@@ -450,8 +450,8 @@ class Mesh:
         are divided as those of the mesh; `transform`, changes as those of `lamina.mesh()`, such as
         "flap:rotate:-5:0.8,0"; `displacements`, (n, 2) in the order of `wall.vertex`. `facts` of the result compare both
         meshes. Raises InputError, and MeshError where a cell would turn over on the way, unless `as_far_as_possible`;
-        `incremental` goes on in further steps there. `reconnect` then makes the cells beyond the layer better, which are no
-        longer the same.
+        `incremental` goes on in further steps there. `reconnect` then swaps diagonals and moves vertices beyond the layer,
+        where this makes triangles better: the cells are no longer the same.
         `lamina.MorphMap` keeps the factors for many shapes, and has the derivative.
         """
         from ._morph import morph
@@ -640,8 +640,9 @@ def check(mesh: Mesh, *, min_angle: float | None = None, first_height: float | N
     """Checks a mesh exactly and measures its quality.
 
     A mesh is valid if its cells are counter-clockwise, conform, and cover its domain once, and if the markers are its
-    boundary. Each curved cell must be proved valid, too. `min_angle`, in degrees, is the bound of `QualitySummary.angles_below_bound`; `first_height`, in units of
-    the input, the height that first cells should have, else their median on each marker.
+    boundary. Each curved cell must be proved valid, too. `min_angle`, in degrees, is the bound of
+    `QualitySummary.angles_below_bound`; `first_height`, in units of the input, the height that first cells should have,
+    else their median on each marker.
 
     Examples
     --------

@@ -56,15 +56,18 @@ class MorphMap:
 
     def morph(self, wall: Any, *, as_far_as_possible: bool = False, incremental: bool = False,
               reconnect: bool = False) -> Mesh:
-        """Returns the mesh with its wall vertices at these points; with `reconnect` other cells beyond the layer, where these
-        are better, between the same vertices.
+        """Returns the mesh with its wall vertices at these points.
 
         Raises MeshError, which names the cell, where a cell would turn over on the way; with `as_far_as_possible` the
         mesh goes as far as it can, and `facts["fraction"]` says how far. With `incremental` the motion goes on from a mesh
-        half as far, by a map of that mesh; with more than one of `facts["maps"]` the derivative is not that of the result.
+        half as far, by a map of that mesh. `reconnect` then swaps diagonals and moves vertices beyond the layer, where this
+        makes triangles better: vertices keep their numbers, and `piece` of the result is empty. With it, or with more than
+        one of `facts["maps"]`, the derivative is not that of the result.
         """
-        data, fraction, maps, stopped_by = self._map.morph(points_array(wall, "wall"), as_far_as_possible, incremental, reconnect)
-        facts = {"fraction": fraction, "maps": maps, **({"stopped_by": stopped_by} if stopped_by else {}), **self._map.compare(data)}
+        data, fraction, maps, stopped_by = self._map.morph(points_array(wall, "wall"), as_far_as_possible, incremental,
+                                                           reconnect)
+        facts = {"fraction": fraction, "maps": maps, **({"stopped_by": stopped_by} if stopped_by else {}),
+                 **self._map.compare(data)}
         return Mesh._from(data, facts=facts, columns=self.mesh._columns)
 
     def morph_all(self, walls: Iterable[Any]) -> tuple[np.ndarray, list[str]]:

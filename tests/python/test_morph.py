@@ -83,6 +83,10 @@ def test_morph_reconnects_on_request(reference):
     assert better.quality().valid and not np.array_equal(better.triangles, reference.triangles)
     assert np.array_equal(better.points[better.wall.vertex], as_it_is.points[as_it_is.wall.vertex])
     assert better.facts["after"]["mean_min_angle"] > as_it_is.facts["after"]["mean_min_angle"]
+    assert len(better.points) == len(reference.points) and len(better.piece) == 0
+    # The layer keeps its cells, with their columns.
+    assert np.array_equal(better.triangles[better.column >= 0], reference.triangles[reference.column >= 0])
+    assert np.array_equal(better.column[better.region == 0], reference.column[reference.region == 0])
 
 
 def test_bad_input(reference, moving):
