@@ -171,9 +171,11 @@ def test_curved(order, tmp_path):
     assert np.allclose(share, np.arange(1, order) / order, atol=0.05)  # they run from the first end to the second
     mesh.write(tmp_path / "curved.vtu")
     for again in (lamina.read(tmp_path / "curved.vtu"), pickle.loads(pickle.dumps(mesh))):
-        assert again.order == order and np.array_equal(again.nodes, mesh.nodes)
+        assert again == mesh and again.order == order and np.array_equal(again.nodes, mesh.nodes)
         assert np.array_equal(again.cell_nodes["quads"], nodes["quads"])
         assert np.array_equal(again.marker_nodes["farfield"], mesh.marker_nodes["farfield"])
+    straight = lamina.mesh_of_arrays(mesh.points, mesh.triangles, mesh.markers, quads=mesh.quads)
+    assert mesh.hash == straight.hash and mesh != straight
     with pytest.raises(lamina.UsageError, match="straight"):
         mesh.write(tmp_path / "curved.su2")
     with pytest.raises(lamina.UsageError, match="straight"):
