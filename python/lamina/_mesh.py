@@ -262,8 +262,9 @@ class Mesh:
         """(n + k, 2) the nodes of all cells: `points`, then those of curved cells beside their corners."""
         return immutable(np.concatenate([self.points, self._curved[1]]))
 
-    def _nodes_of(self, corners: np.ndarray, beside: np.ndarray) -> np.ndarray:
-        return immutable(np.hstack([corners, beside.reshape(len(corners), -1)]) if len(beside) else corners)
+    @staticmethod
+    def _nodes_of(corners: np.ndarray, beside: np.ndarray, nodes: int) -> np.ndarray:
+        return immutable(np.hstack([corners, beside.reshape(len(corners), nodes - corners.shape[1])]))
 
     @cached_property
     def cell_nodes(self) -> Mapping[str, np.ndarray]:
@@ -283,8 +284,9 @@ class Mesh:
                                          0--3--4--5---1
         """
         _, _, triangle_nodes, quad_nodes, _ = self._curved
-        return MappingProxyType({"triangles": self._nodes_of(self.triangles, triangle_nodes),
-                                 "quads": self._nodes_of(self.quads, quad_nodes)})
+        along = self.order + 1  # nodes along an edge
+        return MappingProxyType({"triangles": self._nodes_of(self.triangles, triangle_nodes, along * (along + 1) // 2),
+                                 "quads": self._nodes_of(self.quads, quad_nodes, along**2)})
 
     @cached_property
     def marker_nodes(self) -> Mapping[str, np.ndarray]:
@@ -292,7 +294,7 @@ class Mesh:
         between from the first to the second."""
         ends = [len(edges) * (self.order - 1) for edges in self.markers.values()]
         parts = np.split(self._curved[4], np.cumsum(ends)[:-1]) if ends else []
-        return MappingProxyType({name: self._nodes_of(edges, part)
+        return MappingProxyType({name: self._nodes_of(edges, part, self.order + 1)
                                  for (name, edges), part in zip(self.markers.items(), parts)})
 
     @cached_property

@@ -182,6 +182,13 @@ def test_curved(order, tmp_path):
         lamina.MorphMap(mesh)
 
 
+def test_nodes_of_no_cells_have_their_shape():
+    mesh = lamina.mesh_of_arrays([[0, 0], [1, 0], [0, 1]], [[0, 1, 2]], {"side": [[0, 1], [1, 2], [2, 0]], "none": []})
+    assert mesh.cell_nodes["quads"].shape == (0, 4) and mesh.marker_nodes["none"].shape == (0, 2)
+    curved = lamina.mesh("naca:0012", order=2, first_height=1e-3, layers=4, layer_topology="layered")
+    assert len(curved.quads) == 0 and curved.cell_nodes["quads"].shape == (0, 9)
+
+
 def test_straight_cells_have_their_corners_as_nodes(small):
     assert small.order == 1 and np.array_equal(small.nodes, small.points)
     assert np.array_equal(small.cell_nodes["triangles"], small.triangles)
