@@ -67,10 +67,10 @@ LAMINA_EXPORT RemeshedMesh remesh(const MeshView& mesh, std::span<const MetricTe
 
 /// Returns the mesh with diagonals of its triangles beyond the layer swapped, and vertices between them moved, where this
 /// lowers the sum of distortions: inverse mean ratios, with edges as long as they are round each vertex. No vertex comes,
-/// goes or gets another number. Triangles of the layer come first, in their order; Mesh::region is filled in where it was
-/// empty, and Mesh::piece is empty. A mesh without triangles beyond its layer keeps its cells. Precondition: check_mesh()
-/// finds no defect. Source: L. A. Freitag, C. Ollivier-Gooch, Tetrahedral mesh improvement using swapping and smoothing,
-/// Int. J. Numer. Methods Eng. 40 (1997), in two dimensions.
+/// goes or gets another number. Triangles of the layer come first, in their order. A mesh without regions gets those of
+/// estimate_regions(), and Mesh::piece is empty. A mesh without triangles beyond its layer keeps its cells. Precondition:
+/// check_mesh() finds no defect. Source: L. A. Freitag, C. Ollivier-Gooch, Tetrahedral mesh improvement using swapping and
+/// smoothing, Int. J. Numer. Methods Eng. 40 (1997), in two dimensions.
 LAMINA_EXPORT Mesh reconnect(const MeshView& mesh);
 
 /// Returns the number of vertices that a metric asks for beyond the layer: 2 / sqrt(3) times its complexity, which

@@ -574,8 +574,8 @@ class Mesh:
             for name in ("points", "triangles", "quads", "region", "piece", "layer", "constraints")}
         arrays["markers"] = [(name, kind, np.array(edges)) for name, kind, edges in self._markers]
         curved = tuple(np.array(part) for part in self._curved[1:]) if self.order > 1 else ()
-        return {"arrays": arrays, "order": self.order, "curved": curved, "warnings": list(self._warnings), "facts": self._facts,
-                "columns": tuple(np.array(part) for part in self._columns)}
+        return {"arrays": arrays, "order": self.order, "curved": curved, "warnings": list(self._warnings),
+                "facts": self._facts, "columns": tuple(np.array(part) for part in self._columns)}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         data = _data_of_arrays(**state["arrays"])
