@@ -52,6 +52,7 @@ Matrix matrix_of(std::size_t n, std::vector<Entry> entries) {
         Triplet& operator++() { return ++entry, *this; }
         bool operator!=(const Triplet& other) const { return entry != other.entry; }
     };
+    assert(std::all_of(entries.begin(), entries.end(), [&](const Entry& e) { return e.column <= e.row && e.row < n; }));
     Matrix matrix(static_cast<int>(n), static_cast<int>(n));
     matrix.setFromTriplets(Triplet{entries.data()}, Triplet{entries.data() + entries.size()});
     return matrix;

@@ -23,13 +23,14 @@ struct Entry {
 class SymmetricSystem {
 public:
     SymmetricSystem();  ///< has no rows
-    /// Factors a matrix of n rows, of which the entries on and below the diagonal are given.
+    /// Factors a matrix of n rows, of which the entries on and below the diagonal are given. Throws MeshError where it is
+    /// not positive definite, as on cells that are nearly flat, and for more rows than have numbers.
     SymmetricSystem(std::size_t n, std::vector<Entry> entries);
     SymmetricSystem(SymmetricSystem&&) noexcept;
     SymmetricSystem& operator=(SymmetricSystem&&) noexcept;
     ~SymmetricSystem();
 
-    /// Returns the solution.
+    /// Returns the solution. Precondition: there is a right-hand side for each row of the matrix.
     std::vector<Row> solve(std::span<const Row> right) const;
 
 private:
