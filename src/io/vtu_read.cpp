@@ -1,7 +1,7 @@
-// Reads VTK XML unstructured grids of triangles (5), quads (9) and lines (3), or of these with the nodes of one order up to
-// 4: Lagrange cells (69, 70, 68), and quadratic ones (22, 28, 21), whose nodes have the same places. Ignores z, vertices and polylines (1, 2,
-// 4), arrays that lamina does not write, and lines that are in no marker. vtu_write.cpp describes the arrays. Source:
-// VTK User's Guide, "VTK File Formats", XML.
+// Reads VTK XML unstructured grids of triangles (5), quads (9) and lines (3), or of these with the nodes of one order
+// up to 4: Lagrange cells (69, 70, 68), and quadratic ones (22, 28, 21), whose nodes have the same places. Ignores z,
+// vertices and polylines (1, 2, 4), arrays that lamina does not write, and lines that are in no marker. vtu_write.cpp
+// describes the arrays. Source: VTK User's Guide, "VTK File Formats", XML.
 #include <fmt/format.h>
 
 #include <algorithm>

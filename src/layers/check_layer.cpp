@@ -1,8 +1,11 @@
 // The promises of layer.hpp, checked one by one and independently of how the layer was made.
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -11,6 +14,7 @@
 #include <lamina/layers.hpp>
 
 #include "core/angles.hpp"
+#include "geometry/inside.hpp"
 #include "layers/growth_laws.hpp"
 #include "layers/layer.hpp"
 #include "layers/stages.hpp"
@@ -34,6 +38,7 @@ public:
         check_loops("border", layer_.borders);
         check_rays();
         check_cells();
+        for (std::size_t e = 0; e < layer_.borders.size(); ++e) check_outlines(e);
         check_ratio();
         return std::move(findings_);
     }
@@ -61,18 +66,21 @@ private:
         }
     }
 
-    /// Checks that walls or borders are counter-clockwise, simple and disjoint.
-    void check_loops(const char* name, const std::vector<std::vector<VertexId>>& loops) {
+    /// Checks that loops are counter-clockwise, simple and disjoint.
+    void check_loops(const char* name, std::span<const std::vector<VertexId>> loops) {
         Geometry geometry;
-        for (const std::vector<VertexId>& loop : loops) {
-            Element& element = geometry.elements.emplace_back();
-            for (const VertexId v : loop) element.points.push_back(at(v));
-        }
+        for (const std::vector<VertexId>& loop : loops) geometry.elements.emplace_back().points = places_of(loop);
         try {
             check_simple(geometry);
         } catch (const InputError& error) {
-            report(fmt::format("{}: {}", name, error.what()), at(loops[0][0]));
+            report(fmt::format("{}: {}", name, error.what()), at(loops.front().front()));
         }
+    }
+
+    std::vector<Point> places_of(std::span<const VertexId> vertices) const {
+        std::vector<Point> places;
+        for (const VertexId v : vertices) places.push_back(at(v));
+        return places;
     }
 
     /// Returns whether the angle from a ray of an element to the next one is small enough.
@@ -169,8 +177,7 @@ private:
     }
 
     /// Checks that each quadrilateral between two neighbouring rays is convex, and that each triangle in a fan or at a
-    /// step is positive. Then no two cells overlap, and none leaves the space between wall and border: each point is in
-    /// as many cells as the border winds round it more often than the wall does, which both do once at most.
+    /// step is positive.
     void check_cells_between(const Ray& ray, const Ray& next) {
         const std::uint32_t common = std::min(ray.layers, next.layers);
         for (std::uint32_t n = 1; n <= common; ++n) {
@@ -184,6 +191,117 @@ private:
         const Point a = at(ray.vertex(common)), d = at(next.vertex(common));
         const Point top = at((ray.layers > common ? ray : next).vertex(common + 1));
         if (!(a == d) && orient2d(a, top, d) <= 0) report("crossed cell at a step", a);
+    }
+
+    // Cells between rays, and the polygons beside them that have no rays, are positive. Where their outlines together
+    // are the border less the wall, each point is in as many of them as the border winds round it more often than the
+    // wall does. Both do once at most, as they are simple and disjoint: no two overlap, and none leaves the space
+    // between.
+
+    /// How often edges are passed from their smaller vertex to the larger one, less the times in the other direction.
+    using EdgeSum = std::map<std::pair<VertexId, VertexId>, int>;
+
+    /// Adds a chain of edges to a sum, so many times.
+    static void add_edges(std::span<const VertexId> chain, int times, EdgeSum& sum) {
+        for (std::size_t k = 0; k + 1 < chain.size(); ++k)
+            sum[std::minmax(chain[k], chain[k + 1])] += chain[k] < chain[k + 1] ? times : -times;
+    }
+    static void add_loop(std::vector<VertexId> loop, int times, EdgeSum& sum) {
+        loop.push_back(loop.front());
+        add_edges(loop, times, sum);
+    }
+
+    /// Checks that the polygons of an element lie side by side, between its border above and its wall below.
+    void check_outlines(std::size_t e) {
+        EdgeSum below;
+        add_loop(layer_.walls[e], -1, below);
+        if (layer_.rays[e].empty()) add_loop(layer_.borders[e], 1, below);
+        check_border(e, below);
+        for (const LayerCore& core : layer_.cores)
+            if (core.element == e) add_loop(checked_outline(core), -1, below);
+        for (const auto& [edge, times] : below)
+            if (times != 0) report("an edge has cells on one side alone", at(edge.first));
+    }
+
+    /// Checks that the border visits the tips of the rays in their order, but for those inside closed clefts, and adds
+    /// the lower ends of the columns to `below`.
+    void check_border(std::size_t e, EdgeSum& below) {
+        const std::vector<Ray>& rays = layer_.rays[e];
+        const std::vector<VertexId>& border = layer_.borders[e];
+        if (rays.empty()) return;
+        std::size_t place = std::find(border.begin(), border.end(), rays[0].tip()) - border.begin(), passed = 0;
+        std::vector<VertexId> chain;  // of the border, from one tip to the next
+        const auto pass_to = [&](VertexId tip) {
+            for (chain = {border[place % border.size()]}; chain.back() != tip && passed < border.size(); ++passed)
+                chain.push_back(border[++place % border.size()]);
+            return chain.back() == tip;
+        };
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            const Ray& ray = rays[i];
+            const auto cleft = std::find_if(layer_.clefts.begin(), layer_.clefts.end(), [&](const LayerCleft& c) {
+                return c.element == e && c.first <= i && i < c.last;
+            });
+            const bool is_inside = cleft != layer_.clefts.end();
+            if (is_inside && i == cleft->first) {
+                if (!pass_to(rays[cleft->last].tip()) || chain != cleft->outer_edge)
+                    return report("border does not close a cleft", at(ray.tip()));
+                check_cleft(*cleft);
+            }
+            const Ray& next = rays[(i + 1) % rays.size()];
+            if (is_inside)
+                chain = {ray.tip(), next.tip()};
+            else if (!pass_to(next.tip()))
+                return report("border does not visit the tips in their order", at(next.tip()));
+            check_column(ray, next, chain, below);
+        }
+        if (passed != border.size()) report("border visits more than the tips", at(border[place % border.size()]));
+    }
+
+    /// Checks that the topmost cell between two rays, whose lower corner sees the whole chain from tip to tip, is
+    /// positive, and so is the corner of the wall below. Adds the lower end of the column to `below`.
+    void check_column(const Ray& ray, const Ray& next, std::span<const VertexId> top, EdgeSum& below) {
+        if (ray.layers == 0 && next.layers == 0) return add_edges(top, 1, below);
+        const Ray& longer = ray.layers >= next.layers ? ray : next;
+        const VertexId seen_from = longer.vertex(longer.layers - 1);
+        const bool is_ray = ray.origin == next.origin && std::min(ray.layers, next.layers) == 0;  // no cell
+        for (std::size_t k = 0; !is_ray && k + 1 < top.size(); ++k)
+            if (!(orient2d(at(top[k]), at(top[k + 1]), at(seen_from)) > 0))
+                report("border is not above the cells", at(top[k]));
+        std::vector<VertexId> wall{ray.origin};
+        wall.insert(wall.end(), ray.corner_after.begin(), ray.corner_after.end());
+        if (next.origin != ray.origin) wall.push_back(next.origin);
+        add_edges(wall, 1, below);
+        if (wall.size() < 3) return;
+        std::reverse(wall.begin(), wall.end());
+        check_loops("corner without a ray", std::span(&wall, 1));
+    }
+
+    /// Checks the polygon between the fronts on both sides of a cleft.
+    void check_cleft(const LayerCleft& cleft) {
+        std::vector<VertexId> outline = cleft.outer_edge;
+        for (std::size_t i = cleft.last; --i > cleft.first;) {
+            const VertexId tip = layer_.rays[cleft.element][i].tip();
+            if (tip != outline.back() && tip != outline.front()) outline.push_back(tip);
+        }
+        check_loops("cleft", std::span(&outline, 1));
+    }
+
+    /// Checks the polygon behind a base, and that the points of its chains are inside. Returns its outline.
+    std::vector<VertexId> checked_outline(const LayerCore& core) {
+        std::vector<VertexId> outline(core.chains.front().rbegin(), core.chains.front().rend()), left;
+        for (const std::size_t station : core.stations) {
+            const std::vector<VertexId>& chain = core.chains[station];
+            outline.push_back(chain.front());
+            if (chain.size() > 1) left.push_back(chain.back());
+        }
+        outline.insert(outline.end(), left.rbegin(), left.rend());
+        check_loops("space behind a base", std::span(&outline, 1));
+        const std::vector<Point> places = places_of(outline);
+        for (std::size_t c = 1; c < core.chains.size(); ++c)
+            for (std::size_t i = 1; i + 1 < core.chains[c].size(); ++i)
+                if (const Point p = at(core.chains[c][i]); !geometry::contains(places, p))
+                    report("point outside the space behind its base", p);
+        return outline;
     }
 
     /// Checks that adjacent border edges keep BorderOptions::max_ratio.

@@ -423,6 +423,18 @@ TEST(CheckLayer, FindsDefects) {
     expect_finding([&](Layer& l) { l.rays[0][5].layers -= 2; });
     expect_finding([&](Layer& l) { std::swap(l.rays[0][5], l.rays[0][6]); });
     expect_finding([&](Layer& l) { l.points[l.borders[0][2].index()] = {5, 5}; });
+    // A border that is simple and even, and not that of the cells.
+    expect_finding([&](Layer& l) {
+        std::vector<VertexId>& border = l.borders[0];
+        for (std::size_t k = 0; k < border.size() / 2; ++k) border[k] = border[2 * k];
+        border.resize(border.size() / 2);
+    });
+    expect_finding([&](Layer& l) {
+        for (std::size_t i = 0; i < l.rays[0].size(); ++i)
+            *std::find(l.borders[0].begin(), l.borders[0].end(), l.rays[0][i].tip()) = l.rays[0][i].vertex(3);
+    });
+    expect_finding([&](Layer& l) { l.walls[0].erase(l.walls[0].begin() + 7); });
+    expect_finding([&](Layer& l) { l.rays[0].erase(l.rays[0].begin() + 7); });
 }
 
 /// Meshes measured sections where the shared folder is at hand.

@@ -317,6 +317,30 @@ TEST(Clefts, TheirEndsMayBeDivided) {
     }
 }
 
+TEST(Clefts, SpoiledOnesAreFound) {
+    const LayerOptions options = options_of_layers();
+    const Layer valid = test::checked_layer(jagged_geometry(notched_plate(20)), options);
+    ASSERT_EQ(valid.clefts.size(), 1u);
+    const LayerCleft& cleft = valid.clefts[0];
+    const auto expect_finding = [&](auto spoil) {
+        Layer layer = valid;
+        spoil(layer);
+        EXPECT_FALSE(check_layer(layer, options).empty());
+    };
+    expect_finding([&](Layer& l) { l.rays[0][cleft.corner].corner_after.clear(); });
+    expect_finding([&](Layer& l) { l.clefts[0].last = cleft.last - 1; });
+    expect_finding([&](Layer& l) { l.clefts.clear(); });
+    // Both sides of the corner are as near to each other as its last cells are wide, and overlap when one moves across.
+    expect_finding([&](Layer& l) {
+        const Ray &left = valid.rays[0][cleft.corner], &right = valid.rays[0][cleft.corner + 1];
+        const Point across = valid.points[left.tip().index()] - valid.points[right.tip().index()];
+        for (std::size_t i = cleft.corner + 1; i < cleft.last; ++i)
+            for (std::uint32_t n = 1; n <= valid.rays[0][i].layers; ++n)
+                l.points[valid.rays[0][i].vertex(n).index()] =
+                    valid.points[valid.rays[0][i].vertex(n).index()] + 2 * across;
+    });
+}
+
 /// Another body in the cleft keeps it open.
 TEST(Clefts, AreNotClosedOverOtherBodies) {
     const LayerOptions options = options_of_layers();

@@ -99,6 +99,25 @@ TEST(WakeLayers, CoverBothSidesOfSharpAndBluntTrailingEdges) {
     }
 }
 
+TEST(WakeLayers, SpoiledSpacesBehindBasesAreFound) {
+    const LayerOptions options = options_with_wakes();
+    const Geometry geometry = section_with_features(0.01);
+    const Layer valid = sound_layer(
+        geometry, options, growth_with(options, {line_from(0, geometry.elements[0].features.trailing_edge, 0, 2)}));
+    ASSERT_EQ(valid.cores.size(), 1u);
+    const auto expect_finding = [&](auto spoil) {
+        Layer layer = valid;
+        spoil(layer);
+        EXPECT_FALSE(check_layer(layer, options).empty());
+    };
+    const std::vector<VertexId>& chain = valid.cores[0].chains[1];
+    ASSERT_GT(chain.size(), 2u);
+    expect_finding([&](Layer& l) { l.points[chain[1].index()] = l.points[chain[1].index()] - Point{0.005, 0}; });
+    expect_finding([&](Layer& l) { l.points[chain[1].index()] = l.points[chain[1].index()] + Point{0, 0.02}; });
+    expect_finding([&](Layer& l) { l.cores[0].stations.pop_back(); });
+    expect_finding([&](Layer& l) { l.cores.clear(); });
+}
+
 TEST(WakeLayers, ShareTheirVerticesAndOpen) {
     const LayerOptions options = options_with_wakes();
     for (const double base : {0.0, 0.005}) {
