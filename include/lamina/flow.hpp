@@ -33,7 +33,7 @@ struct PanelSolution;
 enum class BoundaryLayerState {
     laminar,    ///< it is laminar
     turbulent,  ///< it is turbulent, as it is as soon as it can be
-    separated,  ///< it has left the wall here or further upstream; its numbers are those of a fixed shape
+    separated,  ///< it has left the wall: here in a CoupledFlow, else here or upstream, then with a fixed shape
 };
 
 /// The flow at one point of a wall. Lengths are in units of the input.
@@ -95,7 +95,7 @@ LAMINA_EXPORT Flow solve_flow(const Geometry& geometry, const FlowConditions& co
 /// Forces of a flow, as coefficients based on Flow::chord.
 struct FlowForces {
     double lift = 0;           ///< Flow::lift
-    double drag = 0;           ///< of the boundary layers, by Squire and Young; 0 without a Reynolds number
+    double drag = 0;           ///< of the boundary layers, by Squire and Young; 0 without any, and for an estimate
     double friction_drag = 0;  ///< the part of it that skin friction makes
     double moment = 0;         ///< of the pressures, nose up, about a quarter of the chord behind the foremost point
 };

@@ -19,6 +19,7 @@ double momentum_far_behind(const std::vector<FlowPoint>& side) {
         return point.state != BoundaryLayerState::separated;
     });
     const FlowPoint& end = attached == side.rend() ? side.back() : *attached;
+    if (!(end.speed > 0)) return 0;
     return end.momentum * core::pow_reproducible(end.speed, 0.5 * (end.shape + 5));
 }
 
@@ -61,6 +62,7 @@ namespace lamina {
 FlowForces flow_forces(const Flow& flow) {
     using namespace flow;
     FlowForces forces{.lift = flow.lift};
+    if (flow.estimated) return forces;
     const Point stream = free_stream(flow.alpha_deg), about = foremost(flow) + Point{0.25 * flow.chord, 0};
     for (const ElementFlow& element : flow.elements) {
         for (const auto* side : {&element.upper, &element.lower}) {

@@ -43,5 +43,17 @@ TEST(FlowForces, HaveNoDragWithoutAReynoldsNumber) {
     EXPECT_GT(forces.lift, 0.4);
 }
 
+TEST(FlowForces, AreFiniteAcrossTheStream) {
+    for (const double alpha_deg : {-90.0, 90.0}) {
+        const FlowForces forces = flow_forces(flow_round("0012", alpha_deg, 1e6));
+        EXPECT_GE(forces.drag, 0);
+        EXPECT_TRUE(std::isfinite(forces.drag) && std::isfinite(forces.moment)) << alpha_deg;
+    }
+    const Flow estimate = flow_round("0012", -90, 1e6);
+    ASSERT_TRUE(estimate.estimated);
+    EXPECT_EQ(flow_forces(estimate).drag, 0);
+    EXPECT_EQ(flow_forces(solve_flow(make_geometry({naca_airfoil("0012", 200)}), {.alpha_deg = 90})).drag, 0);
+}
+
 }  // namespace
 }  // namespace lamina
