@@ -97,6 +97,31 @@ TEST(CoupledFlow, SharpTrailingEdgesHaveNearlyTheLiftOfThinBases) {
     EXPECT_NEAR(sharp.forces.lift, blunt.forces.lift, 0.04 * blunt.forces.lift);
 }
 
+/// Returns NACA 0012 whose sides end at these x.
+Geometry with_oblique_base(double upper_end, double lower_end) {
+    constexpr int panels = 120;
+    std::vector<Point> points;
+    for (int i = -panels; i <= panels; ++i) {
+        const double share = std::abs(i) / static_cast<double>(panels), root = std::sin(1.5707963267948966 * share);
+        const double x = (i < 0 ? upper_end : lower_end) * root * root;
+        const double y = 0.6 * (0.2969 * std::sqrt(x) + x * (-0.1260 + x * (-0.3516 + x * (0.2843 - x * 0.1015))));
+        points.push_back({x, i < 0 ? y : -y});
+    }
+    return make_geometry({element_of_points(points, "oblique")});
+}
+
+TEST(CoupledFlow, AnObliqueBaseIsAsWideAsTheFlowSeesIt) {
+    const Geometry section = with_oblique_base(0.93, 0.95);
+    for (const auto& [alpha_deg, lift, drag] : {std::array{0.0, -0.0038, 0.00610}, std::array{2.0, 0.2076, 0.00652}}) {
+        const CoupledFlow found =
+            solve_coupled_flow(section, std::array{FlowConditions{.alpha_deg = alpha_deg, .reynolds = 1e6, .chord = 1}})
+                .front();
+        ASSERT_TRUE(found.converged);
+        EXPECT_NEAR(found.forces.lift, lift, 0.004);
+        EXPECT_NEAR(found.forces.drag, drag, 0.02 * drag);
+    }
+}
+
 namespace coupled = flow::coupled;
 
 /// Compares the derivatives of equations by the numbers of both stations with differences.

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "flow/coupled/march.hpp"
 #include "flow/coupled/small_system.hpp"
 #include "flow/dense_solve.hpp"
+#include "flow/panel_system.hpp"
 
 namespace lamina::flow::coupled {
 
@@ -65,11 +67,12 @@ private:
         return true;
     }
 
-    /// Sets the widths of the fluid at rest behind a base. It closes over 2.5 of its heights, as a cubic (XFOIL,
-    /// section 4).
+    /// Sets the widths of the fluid at rest behind a base, across the direction in which flow leaves it. It closes over 2.5 of
+    /// its heights, as a cubic (XFOIL, section 4).
     void set_bases() {
         constexpr double length_ratio = 2.5;
-        const double base = distance(influence_.at[0], influence_.at[influence_.wall - 1]);
+        const std::span walls(influence_.at.data(), influence_.wall);
+        const double base = std::abs(cross(leaving_direction(walls), walls.front() - walls.back()));
         for (std::size_t i = influence_.wall; i < n_; ++i) {
             const double left = base > 0 ? 1 - influence_.s[i] / (length_ratio * base) : 0;
             at(i).base = left > 0 ? base * left * left * (3 - 2 * left) : 0;
