@@ -28,7 +28,8 @@ struct TransitionOptions {
     double critical_exponent = 9;  ///< of the most amplified wave at which a layer becomes turbulent, N
     /// Where the layers are turbulent at the latest, as a share of the section's extent in x.
     std::optional<double> trip{};
-    std::optional<double> trip_lower{};  ///< the same on the lower side; empty: `trip`
+    std::optional<double> trip_lower{};                         ///< the same on the lower side; empty: `trip`
+    bool operator==(const TransitionOptions&) const = default;  ///< whether all are equal
 };
 
 /// Throws OptionError for an option out of range.
@@ -45,8 +46,8 @@ struct CoupledFlow {
 
 /// Returns the flow round one section at each of the conditions. Layers follow the equations of momentum, kinetic energy and
 /// lag of the shear stress, waves grow along the envelope of those of all frequencies, and the wake is one chord long. A flow
-/// begins with the one before. Preconditions: one element; each of the conditions has a Reynolds number, and all have the same
-/// chord. Throws OptionError for conditions or options out of range.
+/// that is not found from layers without displacement begins with the last one found. Preconditions: one element; each of the
+/// conditions has a Reynolds number, and all have the same chord. Throws OptionError for conditions or options out of range.
 LAMINA_EXPORT std::vector<CoupledFlow> solve_coupled_flow(const Geometry& geometry,
                                                           std::span<const FlowConditions> conditions,
                                                           const TransitionOptions& transition = {});

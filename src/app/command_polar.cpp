@@ -36,9 +36,12 @@ void polar(const PolarArguments& arguments) {
     const PolarSettings settings{arguments.folder, fmt::format("\n{}\n{}", arguments.solver, arguments.turbulence)};
     SolverCaseOptions options;
     set_by_name(option_table<SolverCaseOptions>(), "turbulence", arguments.turbulence, options);
+    const TransitionOptions transition = transition_options(arguments.transition);
+    if (arguments.solver != own_flow && transition != TransitionOptions{})
+        throw UsageError("options --ncrit, --trip, --trip-lower: are those of --solver flow");
     const auto& [conditions, rows] =
         arguments.solver == own_flow
-            ? run_polar_of_flow(settings, mesh_case, transition_options(arguments.transition))
+            ? run_polar_of_flow(settings, mesh_case, transition)
             : run_polar_of_solver(settings, mesh_case, *adapt_solver(arguments.solver, options));
     if (!mesh_case.quiet) print_result(polar_summary(conditions, rows));
     const auto loose = std::count_if(rows.begin(), rows.end(), [](const PolarRow& row) { return !row.steady; });

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include <lamina/error.hpp>
+
 namespace lamina::app {
 
 namespace {
@@ -10,6 +12,16 @@ bool can_be_coupled(const Geometry& geometry, const ReferenceConditions& referen
     constexpr double least_reynolds = 1e4;
     return geometry.elements.size() == 1 && reference.reynolds >= least_reynolds && !walls.below && !walls.above &&
            !walls.pitch;
+}
+
+/// Refuses options of transition for layers that are not solved together with the flow.
+void require_default(const TransitionOptions& transition) {
+    const TransitionOptions usual;
+    const char* name = transition.critical_exponent != usual.critical_exponent ? "ncrit"
+                       : transition.trip                                       ? "trip"
+                                                                               : "trip-lower";
+    if (transition != usual)
+        throw OptionError(name, "needs a single section without walls, and a Reynolds number of 1e4 or more");
 }
 
 /// Puts flows that were solved with their layers in the places of those that are not compressible.
@@ -53,6 +65,7 @@ std::vector<FoundFlow> find_flows(Geometry geometry, const CaseOptions& options,
     const FlowWalls walls = flow_walls(geometry, options);
     const Geometry prepared = prepare_surfaces(geometry, options.surface, reference.chord);
     const bool coupled = can_be_coupled(prepared, reference, walls);
+    if (!coupled) require_default(transition);
     std::vector<FoundFlow> found;
     std::vector<FlowConditions> to_couple;
     for (const FlowConditions& each : conditions) {

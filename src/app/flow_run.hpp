@@ -33,7 +33,7 @@ Geometry in_row(Geometry geometry, const CaseOptions& options);
 /// Solves compressible flow where it is faster than sound, else incompressible flow, whose pressures are those of compressible
 /// flow where there is a Mach number. One section without walls has boundary layers that displace its flow
 /// (solve_coupled_flow()), from a Reynolds number of 1e4 on, all others layers that do not. Throws OptionError for options out
-/// of range.
+/// of range, and for those of transition where layers do not displace the flow.
 FoundFlow find_flow(Geometry geometry, const CaseOptions& options, const TransitionOptions& transition = {});
 /// Finds the flow at each of these conditions, of one chord, in their order.
 std::vector<FoundFlow> find_flows(Geometry geometry, const CaseOptions& options,

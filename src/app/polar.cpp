@@ -87,7 +87,7 @@ PolarRow row_of_incompressible_flow(const FoundFlow& found) {
     if (!flow.warnings.empty()) {
         row.state = found.loose ? "not coupled" : "stalled";
         row.steady = false;
-        row.note = flow.warnings.front().message;
+        row.note = (found.loose ? flow.warnings.back() : flow.warnings.front()).message;
     }
     return row;
 }

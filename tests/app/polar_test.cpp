@@ -115,6 +115,11 @@ TEST(FlowPolar, TripsAndWavesMakeLayersTurbulent) {
     EXPECT_EQ(rows[8], " Mach =   0.000     Re =     1.000 e 6     Ncrit =   5.000");
     expect_refused(folder, {"flow", "naca:0012", "--reynolds", "1e6", "--trip", "2"}, usage, "option --trip");
     expect_refused(folder, {"flow", "naca:0012", "--reynolds", "1e6", "--ncrit", "0"}, usage, "option --ncrit");
+    // Layers that do not displace the flow have no such options.
+    expect_refused(folder, {"flow", "naca:0012", "--trip", "0.1"}, usage, "trip");
+    expect_refused(folder, {"flow", "naca:0012", "--reynolds", "5e3", "--ncrit", "5"}, usage, "ncrit");
+    expect_refused(folder, {"polar", "naca:0012", "--alpha", "0:2:2", "--solver", "su2", "--trip", "0.1", "-o", "p"},
+                   usage, "--solver flow");
 }
 
 TEST(PolarCommand, DragWithoutLayersIsNoDrag) {
