@@ -107,18 +107,28 @@ nb::dict flow_facts(CompressibleFlow flow) {
     return facts;
 }
 
-/// Returns the flow that `lamina flow` finds, with the options of meshes.
-nb::dict find_flow(const nb::list& given, const std::vector<std::pair<std::string, OptionValue>>& values) {
+using OptionValues = std::vector<std::pair<std::string, OptionValue>>;
+
+/// Returns the flow that `lamina flow` finds, with the options of meshes, and those of TransitionOptions by their names.
+nb::dict find_flow(const nb::list& given, const OptionValues& values, const OptionValues& of_transition) {
     const CaseOptions options = make_request(values).options;
+    TransitionOptions transition;
+    for (const auto& [name, value] : of_transition)
+        find_row(option_table<TransitionOptions>(), name).set(transition, value);
     const std::vector<Section> sections = sections_of(given);
     app::FoundFlow found;
-    run_unlocked([&] { found = app::find_flow(geometry_of(sections, options.geometry), options); });
+    run_unlocked([&] { found = app::find_flow(geometry_of(sections, options.geometry), options, transition); });
     nb::dict facts = found.compressible ? flow_facts(std::move(*found.compressible)) : flow_facts(found.flow);
     if (!found.compressible) {
         facts["mach"] = options.conditions.mach ? nb::cast(*options.conditions.mach) : nb::none();
         facts["has_layers"] = found.has_layers;
         facts["moment"] = found.forces.moment;
-        if (found.has_layers) {
+        if (found.transition) {
+            facts["transition_upper"] = found.transition->upper;
+            facts["transition_lower"] = found.transition->lower;
+        }
+        if (found.loose) facts["converged"] = false;
+        if (found.has_layers && !found.flow.estimated) {
             facts["drag"] = found.forces.drag;
             facts["viscous_drag"] = found.forces.drag;
         }

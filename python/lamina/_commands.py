@@ -103,29 +103,38 @@ class Flow(Values):
     warnings: Sequence[MeshWarning] = ()  #: where the flow separates, or could not be found
     drag: float | None = None  #: drag coefficient; of attached layers by Squire and Young
     moment: float | None = None  #: of the pressures, nose up, about a quarter chord; None with shocks
+    transition_upper: float | None = None  #: share of the extent in x where the layer of a single section is turbulent
+    transition_lower: float | None = None  #: the same on the lower side; None where layers do not displace the flow
     viscous_drag: float | None = None  #: of boundary layers and wakes
     wave_drag: float | None = None  #: of shocks
-    converged: bool = True  #: whether the flow is steady
+    converged: bool = True  #: whether the flow is steady, and agrees with layers that displace it
     points: np.ndarray | None = None  #: (p, 2) of the mesh that the compressible flow was found on
     triangles: np.ndarray | None = None  #: (t, 3) of that mesh
     mach_numbers: np.ndarray | None = None  #: (p,) at its points
 
 
 @with_options
-def flow(sections: Sections, **options: Unpack[MeshOptions]) -> Flow:
+def flow(sections: Sections, *, ncrit: float | None = None, trip: float | None = None,
+         trip_lower: float | None = None, **options: Unpack[MeshOptions]) -> Flow:
     """Computes the flow round sections without a mesh, as `lamina flow` does: incompressible flow with boundary layers,
     which displace that of a single section, or the Euler equations where `mach` makes it faster than sound.
+
+    ncrit: the exponent of waves at which layers become turbulent (9). trip: the share of the extent in x where they are so
+    at the latest, and trip_lower on the lower side. All three are for a single section without walls.
 
     Of the options of `lamina.mesh()` those of the flow count (`alpha`, `mach`, `reynolds`, `chord`, ...), of the geometry,
     and of walls outside (`ground`, `tunnel`, `periodic`). Raises OptionError, InputError and IoError.
 
     Examples
     --------
-    >>> lamina.flow("naca:2412", alpha=-2.1, reynolds=1e6).lift < 0.1
-    True
+    >>> flow = lamina.flow("naca:2412", alpha=-2.1, reynolds=1e6, trip=0.1)
+    >>> flow.lift < 0.1, round(flow.transition_upper, 4)
+    (True, 0.1)
     """
     arguments = run_arguments(sections, {**_NO_PRESET, **options})
-    facts = _lamina.flow(arguments.sections, arguments.values)
+    given = {"ncrit": ncrit, "trip": trip, "trip-lower": trip_lower}
+    facts = _lamina.flow(arguments.sections, arguments.values,
+                         [(name, float(value)) for name, value in given.items() if value is not None])
     facts["elements"] = {name: ElementFlow(FlowSide(**upper), FlowSide(**lower))
                          for name, upper, lower in facts["elements"]}
     facts["warnings"] = [MeshWarning._from(warning) for warning in facts.get("warnings", ())]

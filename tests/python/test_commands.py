@@ -63,6 +63,11 @@ def test_flow_is_that_of_the_program(program, tmp_path):
     assert 0.4 < flow.lift < 0.6 and flow.has_layers and flow.alpha == 2
     assert 0.005 < flow.drag < 0.02 and -0.08 < flow.moment < -0.03  # -0.05 in tables
     assert not lamina.flow({"wing": "naca:0012"}).has_layers
+    tripped = lamina.flow("naca:2412", alpha=2, reynolds=1e6, trip=0.1, trip_lower=0.2, ncrit=4)
+    assert np.allclose([tripped.transition_upper, tripped.transition_lower], [0.1, 0.2], rtol=1e-6, atol=0)
+    assert tripped.drag > flow.drag and flow.converged and flow.transition_upper > 0.2
+    with pytest.raises(lamina.OptionError):
+        lamina.flow("naca:2412", ncrit=4)
 
 
 def test_compressible_flow():
