@@ -76,9 +76,7 @@ public:
         make_regions();
         CurvedMesh curved{std::move(mesh_), std::move(curved_)};
         if (order_ > 1) curved.nodes.order = order_;
-        orient_curved_markers(curved);
-        if (order_ > 1 && !separate_nodes(curved))
-            fail("a node is the corner of one element and no corner of another one");
+        if (!orient_and_separate(curved)) fail("a node is the corner of one element and no corner of another one");
         return curved;
     }
     /// Returns the names of all arrays at the vertices. Precondition: read()

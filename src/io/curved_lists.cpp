@@ -30,6 +30,17 @@ void for_each_corner(Mesh& mesh, F&& f) {
     std::for_each(mesh.constraints.begin(), mesh.constraints.end(), of_edge);
 }
 
+/// Does what orient_markers() does, and turns the nodes of an edge with it.
+void orient_curved_markers(CurvedMesh& curved) {
+    const std::vector<Marker> before = curved.mesh.markers;
+    orient_markers(curved.mesh);
+    const std::ptrdiff_t of_edge = std::ptrdiff_t{curved.nodes.order} - 1;
+    auto nodes = curved.nodes.marker_nodes.begin();
+    for (std::size_t m = 0; m < before.size(); ++m)
+        for (std::size_t i = 0; i < before[m].edges.size(); ++i, nodes += of_edge)
+            if (curved.mesh.markers[m].edges[i] != before[m].edges[i]) std::reverse(nodes, nodes + of_edge);
+}
+
 }  // namespace
 
 unsigned order_of_cell(unsigned corners, std::size_t nodes) {
@@ -42,14 +53,13 @@ std::string curved_cells_refused(unsigned order) {
     return fmt::format("cells of order {}: curved ones are for 'lamina check', 'convert', 'plot' and 'view'", order);
 }
 
-void orient_curved_markers(CurvedMesh& curved) {
-    const std::vector<Marker> before = curved.mesh.markers;
-    orient_markers(curved.mesh);
-    const std::ptrdiff_t of_edge = std::ptrdiff_t{curved.nodes.order} - 1;
-    auto nodes = curved.nodes.marker_nodes.begin();
-    for (std::size_t m = 0; m < before.size(); ++m)
-        for (std::size_t i = 0; i < before[m].edges.size(); ++i, nodes += of_edge)
-            if (curved.mesh.markers[m].edges[i] != before[m].edges[i]) std::reverse(nodes, nodes + of_edge);
+bool orient_and_separate(CurvedMesh& curved) {
+    if (curved.nodes.order <= 1) {
+        orient_markers(curved.mesh);
+        return true;
+    }
+    orient_curved_markers(curved);
+    return separate_nodes(curved);
 }
 
 bool separate_nodes(CurvedMesh& curved) {

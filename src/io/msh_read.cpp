@@ -342,11 +342,9 @@ private:
             }
             mesh_.region.push_back(region);
         }
-        if (order_ <= 1) return orient_markers(mesh_);
-        curved_.order = order_;
+        if (order_ > 1) curved_.order = order_;
         CurvedMesh curved{std::move(mesh_), std::move(curved_)};
-        orient_curved_markers(curved);
-        if (!separate_nodes(curved)) in_.fail("a node is the corner of one element and no corner of another one");
+        if (!orient_and_separate(curved)) in_.fail("a node is the corner of one element and no corner of another one");
         mesh_ = std::move(curved.mesh);
         curved_ = std::move(curved.nodes);
     }

@@ -112,7 +112,6 @@ void report_divided_edges(std::span<const CurvedEdge* const> divided, MeshResult
 
 void validate_order(const CaseOptions& options) {
     const auto refuse = [](const char* reason) { throw OptionError("order", reason); };
-    if (options.order < 1 || options.order > max_cell_order) refuse("must be from 1 to 4");
     if (options.order == 1) return;
     if (options.layer.enabled && options.layer.topology == LayerTopology::delaunay)
         refuse("curved cells stand in columns: take --layer-topology quads or layered");

@@ -9,7 +9,7 @@
 
 namespace lamina::pipeline {
 
-/// Throws OptionError where the order of cells is out of range, or goes with options that know no curved cells.
+/// Throws OptionError where cells of a higher order go with options that know straight cells alone.
 void validate_order(const CaseOptions& options);
 
 /// Returns the number of points on the curve of each edge of a wall: nodes, and points between to measure by.

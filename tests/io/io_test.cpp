@@ -153,6 +153,23 @@ TEST(MeshFiles, VtuHasCurvedCellsInTheOrderOfVtk) {
         }
 }
 
+TEST(MeshFiles, VtuIsReadWithQuadraticCells) {
+    const TemporaryFolder folder;
+    for (const unsigned corners : {3u, 4u}) {
+        const CurvedMesh cell = test::one_cell(corners, 2);
+        write_curved_mesh(cell.mesh, cell.nodes, folder / "m.vtu");
+        std::string file = folder.read("m.vtu");
+        const std::size_t types = file.rfind(corners == 3 ? "\x45\x44" : "\x46\x44");  // of the cell and its marker
+        ASSERT_NE(types, std::string::npos);
+        file.replace(types, 2, corners == 3 ? "\x16\x15" : "\x1c\x15");
+        const CurvedMesh read = read_curved_mesh(folder.write("m.vtu", file));
+        EXPECT_EQ(read.nodes.order, 2u);
+        EXPECT_EQ(read.nodes.triangle_nodes, cell.nodes.triangle_nodes);
+        EXPECT_EQ(read.nodes.quad_nodes, cell.nodes.quad_nodes);
+        EXPECT_EQ(read.nodes.marker_nodes, cell.nodes.marker_nodes);
+    }
+}
+
 TEST(MeshFiles, VtuHoldsQualityAndWallDistance) {
     const TemporaryFolder folder;
     const Mesh mesh = annulus({.around = 200, .quads_in_layer = true});
