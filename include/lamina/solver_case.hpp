@@ -21,6 +21,7 @@
 
 #include <lamina/flow.hpp>
 #include <lamina/mesh.hpp>
+#include <lamina/morph.hpp>
 
 namespace lamina {
 
@@ -119,5 +120,13 @@ LAMINA_EXPORT void add_moved_points(const Mesh& reference, std::span<const Point
 /// Returns the names of all files of such a case with these times. The first is the folder of the mesh.
 LAMINA_EXPORT std::vector<std::filesystem::path> moving_case_outputs(const std::filesystem::path& folder,
                                                                      std::span<const double> times);
+
+/// Writes a case of SU2 whose whole mesh pitches, far field included: the mesh, and an Allrun that takes the flow from a
+/// steady case of the same mesh and lets it go on up to a time > 0, in so many steps. In a unit of time the free stream
+/// goes a unit of length. Throws UsageError unless all bodies pitch together and the far field is closed.
+LAMINA_EXPORT void write_pitching_case(const Mesh& reference, const TurnInTime& turn, double end, int steps,
+                                       const std::filesystem::path& folder);
+/// Returns the names of all files of such a case. The first is the mesh.
+LAMINA_EXPORT std::vector<std::filesystem::path> pitching_case_outputs(const std::filesystem::path& folder);
 
 }  // namespace lamina

@@ -178,7 +178,8 @@ void add_morph_command(CLI::App& app) {
             "--sequence", arguments->sequence.turns,
             "bodies that turn as time goes on: ELEMENT:pitch:MEAN:AMPLITUDE:FREQUENCY[:X,Y] by mean + amplitude "
             "sin(2 pi frequency time), or ELEMENT:deflect:DEG:DURATION[:X,Y] from rest to rest; degrees, nose up, "
-            "about the origin or X,Y; may be given several times. NEW is a case of OpenFOAM, or holds {step}")
+            "about the origin or X,Y; may be given several times. NEW is a case of OpenFOAM or, with --format su2 "
+            "where the whole mesh pitches, of SU2, or holds {step}")
         ->type_name("TURN")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

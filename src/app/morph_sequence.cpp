@@ -19,6 +19,7 @@ namespace {
 
 constexpr std::string_view step_mark = "{step}";
 constexpr double latest = 1e100;  // time, as that of a duration
+constexpr const char *foam_format = "openfoam", *su2_format = "su2";
 
 Json morph_quality(const MorphQuality& quality) {
     return {{"min_angle", quality.min_angle_deg},
@@ -44,6 +45,41 @@ std::vector<double> times_up_to(double end, int steps) {
     std::vector<double> times;
     for (int i = 0; i <= steps; ++i) times.push_back(end * i / steps);
     return times;
+}
+
+/// Adds the folder of a solver's case.
+void plan_case(MorphSequence& sequence, const std::string& output) {
+    std::string& format = sequence.options.format;
+    const bool is_folder = !std::filesystem::path(output).has_extension();
+    if (format.empty() && is_folder) format = foam_format;
+    std::vector<std::filesystem::path> files;
+    if (format == su2_format && is_folder) {
+        if (sequence.turns.size() != 1) throw UsageError("option --sequence: a case of SU2 has one turn");
+        files = pitching_case_outputs(output);
+    } else if (format_name(output, sequence.options) == foam_format) {
+        check_writable(output, sequence.options);
+        files = moving_case_outputs(output, sequence.times);
+    } else {
+        throw UsageError(
+            "option --output: a sequence needs {step} in the name of its files, or a folder for OpenFOAM or, with "
+            "--format su2, for SU2");
+    }
+    sequence.folder = output;
+    for (const std::filesystem::path& file : files) sequence.outputs.push_back({file, "option --output"});
+}
+
+/// Writes a case of SU2, which turns the reference mesh as a whole: its cells are the same at all times.
+Json write_pitching(const MorphMap& map, const MorphSequence& sequence) {
+    const Mesh& reference = map.reference();
+    write_pitching_case(reference, sequence.turns.front(), sequence.times.back(),
+                        static_cast<int>(sequence.times.size() - 1), sequence.folder);
+    const Json quality = morph_json({}, compare_morphed(map, reference));
+    Json reports = Json::array();
+    for (const double time : sequence.times) {
+        reports.push_back({{"time", time}});
+        reports.back().update(quality);
+    }
+    return reports;
 }
 
 /// Moves the mesh to a time.
@@ -99,17 +135,12 @@ MorphSequence plan_sequence(const SequenceArguments& arguments, const std::strin
         }
         return sequence;
     }
-    if (options.format.empty() && !std::filesystem::path(output).has_extension()) sequence.options.format = "openfoam";
-    if (format_name(output, sequence.options) != "openfoam")
-        throw UsageError("option --output: a sequence needs {step} in the name of its files, or a folder for OpenFOAM");
-    check_writable(output, sequence.options);
-    sequence.folder = output;
-    for (const auto& file : moving_case_outputs(output, sequence.times))
-        sequence.outputs.push_back({file, "option --output"});
+    plan_case(sequence, output);
     return sequence;
 }
 
 Json write_sequence(const MorphMap& map, const MorphSequence& sequence, const MorphOptions& options) {
+    if (!sequence.folder.empty() && sequence.options.format == su2_format) return write_pitching(map, sequence);
     // All times are found before the first one is written: a motion that ends on the way leaves no files.
     std::vector<MorphResult> results;
     for (const double time : sequence.times) results.push_back(morph_to(map, sequence.turns, time, options));

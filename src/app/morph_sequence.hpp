@@ -24,13 +24,14 @@ struct SequenceArguments {
 struct MorphSequence {
     std::vector<TurnInTime> turns;
     std::vector<double> times;
-    std::vector<std::string> meshes;  ///< a file per time; empty where they are times of a case of OpenFOAM
+    std::vector<std::string> meshes;  ///< a file per time; empty where a case of a solver has all times
     std::string folder;               ///< of that case
-    WriteOptions options;
+    WriteOptions options;             ///< the format is that of the solver's meshes where there is a case
     std::vector<RunFile> outputs;
 };
 
-/// Throws UsageError for texts that are no turns, and where the output neither holds "{step}" nor is a folder for OpenFOAM.
+/// Throws UsageError for texts that are no turns, and where the output neither holds "{step}" nor is a folder for OpenFOAM
+/// or, with that format, for SU2.
 MorphSequence plan_sequence(const SequenceArguments& arguments, const std::string& output, const WriteOptions& options);
 /// Writes the meshes, and returns a report for each time. Throws what morph() throws, with the time.
 Json write_sequence(const MorphMap& map, const MorphSequence& sequence, const MorphOptions& options);

@@ -22,7 +22,7 @@ std::string walls_with(const CaseFlow& flow, std::string_view value) {
 constexpr double heat_ratio = 1.4, gas_constant = 287.058, temperature = 300;  // air at FREESTREAM_TEMPERATURE
 
 /// Returns the speed of the free stream in m/s, as SU2 takes it.
-double stream_speed(const CaseFlow& flow) { return flow.mach * std::sqrt(heat_ratio * gas_constant * temperature); }
+double stream_speed(const CaseFlow& flow) { return flow.mach * su2_sound_speed(); }
 
 /// Returns the Mach number behind a row: flow without losses keeps its mass and leaves in this direction. Where no Mach
 /// number up to 1 has so much mass in so narrow a stream, it is 1.
@@ -101,7 +101,8 @@ void add_time_options(const CaseFlow& flow, Words& words) {
     words["RUN_COMMENT"] = flow.time ? "% Allrun changes TIME_ITER, and starts with a steady run." : steady_comment;
     words["END_OPTIONS"] = fmt::format(steady_end, max_iterations);
     if (flow.time)
-        words["END_OPTIONS"] = fmt::format(end_in_time, flow.chord / (stream_speed(flow) * flow.time->per_time));
+        words["END_OPTIONS"] =
+            su2_steps_in_time(fmt::format("{}", flow.chord / (stream_speed(flow) * flow.time->per_time)));
 }
 
 /// Returns the lines of walls that move with the free stream.
@@ -113,6 +114,10 @@ std::string moving_walls(const CaseFlow& flow) {
 }
 
 }  // namespace
+
+double su2_sound_speed() { return std::sqrt(heat_ratio * gas_constant * temperature); }
+
+std::string su2_steps_in_time(std::string_view seconds) { return fmt::format(end_in_time, seconds); }
 
 Words su2_words(const CaseFlow& flow) {
     const bool sst = flow.turbulence == TurbulenceModel::k_omega_sst,

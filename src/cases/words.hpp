@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <lamina/point.hpp>
@@ -72,5 +73,9 @@ std::string angles_of(const CaseFlow& flow, double largest_step);
 /// Return the words for the files of each solver.
 Words openfoam_words(const CaseFlow& flow);
 Words su2_words(const CaseFlow& flow);
+/// Returns the speed of sound in the free stream of SU2's cases, in m/s.
+double su2_sound_speed();
+/// Returns the options of SU2's steps in time, each of so many seconds.
+std::string su2_steps_in_time(std::string_view seconds);
 
 }  // namespace lamina::cases

@@ -140,6 +140,28 @@ TEST(MorphCommand, WritesMovingCasesOfOpenFoam) {
         }
 }
 
+TEST(MorphCommand, WritesPitchingCasesOfSu2) {
+    const TemporaryFolder folder;
+    make_mesh_to_morph(folder);
+    const auto write = [&](const std::string& turn, const std::string& mesh) {
+        return std::vector<std::string>{"morph", mesh,       "--sequence", turn, "--steps",
+                                        "20",    "--format", "su2",        "-o", "pitching"};
+    };
+    const ProgramRun run = run_lamina(folder, write("airfoil:pitch:1:5:0.04:0.25,0", "mesh.vtu"));
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(read_mesh(folder / "pitching/mesh.su2").points, read_mesh(folder / "mesh.vtu").points);
+    const std::string script = folder.read("pitching/Allrun");
+    for (const char* line : {"steps=$((20 * per_time))", "step = 25 / steps", "GRID_MOVEMENT= RIGID_MOTION",
+                             "MOTION_ORIGIN= 0.25 0 0.0", "PITCHING_AMPL= 0.0 0.0 5\n", "alpha + 1,"})
+        EXPECT_NE(script.find(line), std::string::npos) << line;
+    expect_refused(folder, write("airfoil:deflect:5:1", "mesh.vtu"), usage, "pitch together");
+    expect_refused(folder, write("flap:pitch:0:5:1", "mesh.vtu"), usage, "pitch together");
+    const ProgramRun ground = run_lamina(folder, {"mesh", "naca:0012:100", "--layers", "15", "--first-height", "1e-4",
+                                                  "--far-field", "10", "--ground", "0.3", "-o", "ground.vtu"});
+    ASSERT_EQ(ground.exit_code, 0) << ground.err;
+    expect_refused(folder, write("all:pitch:0:5:1", "ground.vtu"), usage, "closed far field");
+}
+
 TEST(MorphCommand, RefusesSequencesThatItCannotWrite) {
     const TemporaryFolder folder;
     make_mesh_to_morph(folder);

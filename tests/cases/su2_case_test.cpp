@@ -10,6 +10,7 @@
 
 #include "cases/case_files.hpp"
 #include "cases/case_fixtures.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace lamina {
 namespace {
@@ -37,12 +38,18 @@ std::map<std::string, std::string> options_of_case(const SolverConditions& condi
         test::text_of(cases::solver_case_files(FlowSolver::su2, case_mesh(), conditions, options), "case.cfg"));
 }
 
-TEST(Su2Case, EveryOptionIsOneOfSu2) {
+/// Returns the names of SU2's options.
+std::set<std::string> known_options() {
     std::istringstream words(read_file(LAMINA_SOURCE_DIR "/tests/cases/su2_options.txt"));
     std::set<std::string> known;
     for (std::string line; std::getline(words, line);)
         if (!line.starts_with('#')) known.insert(line);
     EXPECT_GT(known.size(), 60u);
+    return known;
+}
+
+TEST(Su2Case, EveryOptionIsOneOfSu2) {
+    const std::set<std::string> known = known_options();
     for (const auto turbulence :
          {TurbulenceModel::spalart_allmaras, TurbulenceModel::k_omega_sst, TurbulenceModel::laminar})
         for (const bool unsteady : {false, true})
@@ -79,6 +86,22 @@ TEST(Su2Case, GoesInStepsOfTime) {
     EXPECT_NEAR(std::stod(options["TIME_STEP"]) * std::stod(steps[1]) * 0.2 * 347.2, 2, 1e-3);
     EXPECT_FALSE(options.contains("ITER"));
     EXPECT_FALSE(options_of_case(conditions).contains("TIME_STEP"));
+}
+
+/// Allrun of a case that pitches adds options to those of a steady case, and changes some.
+TEST(Su2Case, PitchesByOptionsOfSu2) {
+    const test::TemporaryFolder folder;
+    const TurnInTime turn{"all", Pitching{1, 5, 0.04}, {0.25, 0}};
+    write_pitching_case(case_mesh(), turn, 25, 20, folder / "pitching");
+    for (const auto& file : pitching_case_outputs(folder / "pitching")) EXPECT_TRUE(std::filesystem::exists(file));
+    const std::string script = folder.read("pitching/Allrun"), begin = "<<END\n";
+    const std::size_t at = script.find(begin) + begin.size();
+    auto options = su2_options(script.substr(at, script.find("\nEND\n") - at));
+    const std::set<std::string> known = known_options();
+    for (const auto& [name, value] : options) EXPECT_TRUE(known.contains(name)) << name;
+    EXPECT_EQ(options["GRID_MOVEMENT"], "RIGID_MOTION");
+    EXPECT_EQ(options["PITCHING_AMPL"], "0.0 0.0 5");
+    EXPECT_EQ(options["TIME_STEP"], "$seconds");
 }
 
 /// Below a Reynolds number of 1e4 cases are laminar, unless they are asked for a model.
