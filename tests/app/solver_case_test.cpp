@@ -313,9 +313,16 @@ TEST(SolverCaseCommand, AllrunTellsSteadyStatesFromCyclesAndDrift) {
     EXPECT_EQ(settled(folder, {}), "");
     EXPECT_EQ(settled(folder, {{1.0, 0.01, 0, 1e-3, 1e-4}}), "");
     EXPECT_EQ(settled(folder, {{1.0, 0.01, 0, 1e-3, 1e-4}, {1.0, 0.01, 0, 1e-4, 4e-6}}), "steady\n");
-    // Without lift, the drag says what a small change of lift is.
-    EXPECT_EQ(settled(folder, {{0.0, 0.01, 0, 4e-6, 4e-6}}), "steady\n");
-    EXPECT_EQ(settled(folder, {{0.0, 0.01, 0, 4e-5, 4e-6}}), "");
+    // Without lift, that of a degree says what a small change of lift is.
+    EXPECT_EQ(settled(folder, {{0.0, 0.01, 0, 5e-5, 4e-6}}), "steady\n");
+    EXPECT_EQ(settled(folder, {{0.0, 0.01, 0, 6e-5, 4e-6}}), "");
+    // Blocks of NACA 0012 at 0 degrees on 11,464 cells, which go on so for thousands of iterations.
+    EXPECT_EQ(settled(folder, {{-1.03e-4, 0.0079506, 0, 1.14e-4, 1.88e-5},
+                               {-9.5e-5, 0.0079512, 0, 8.14e-5, 1.95e-5},
+                               {-1.09e-4, 0.0079503, 0, 8.59e-5, 1.64e-5},
+                               {-1.25e-4, 0.0079503, 0, 9.57e-5, 2.17e-5},
+                               {-1.11e-4, 0.0079499, 0, 1.1e-4, 2.3e-5}}),
+              "steady in the mean\n");
 
     // Drag cycles by 0.4 %, about a mean that moves by `drift` from block to block.
     const auto cycle = [](std::size_t blocks, double drift, double range) {

@@ -9,10 +9,10 @@
 
 function abs(x) { return x < 0 ? -x : x }
 
-# Returns whether changes of lift and drag are within this share of them. Where there is hardly any lift, the drag says
-# what a small change is.
+# Returns whether changes of lift and drag are within this share of them. Where there is hardly any lift, that of a thin
+# airfoil at an angle of one degree, pi^2 / 90, says what a small change is.
 function within(share, of_cl, of_cd) {
-    return of_cd <= share * abs(cd[NR]) && of_cl <= share * (abs(cl[NR]) + abs(cd[NR]))
+    return of_cd <= share * abs(cd[NR]) && of_cl <= share * (abs(cl[NR]) + 0.11)
 }
 
 { cl[NR] = $1; cd[NR] = $2; range_cl[NR] = $4; range_cd[NR] = $5 }
