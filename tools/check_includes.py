@@ -53,6 +53,7 @@ for name in "delaunay_connectivity delaunay_input delaunay_queries dynamic_trian
 OWNERS["morph"] = "morphing"
 OWNERS["places"] = "mesh"
 OWNERS["former_options"] = "pipeline"
+OWNERS["forecast"] = "pipeline"
 OWNERS["plate"] = "pipeline"
 OWNERS["presets"] = "pipeline"
 OWNERS["mesh_sink"] = "mesh"

@@ -211,24 +211,35 @@ void hand_over(MadePieces& pieces, MadeMesh& made) {
 
 }  // namespace
 
+OutlinedMesh outline_mesh(const FittedLayer& fitted, const CaseOptions& options, StageClock& clock,
+                          MeshResult& result) {
+    layers::Layer layer = close_border(fitted);
+    summarize_layer(fitted, layer, options.layer, result);
+    if (options.surface.treatment == SurfaceTreatment::keep)
+        note_added_points(layer, options.layer.max_ray_angle_deg, result.geometry.elements);
+    clock.end(&StageSeconds::layers);
+
+    clock.begin("sizing");
+    SizeField size = sizes_beyond(fitted, layer, options.sizing);
+    RegionBorders region = fitted.far_field.pitch > 0 ? close_row(layer, fitted.below, fitted.far_field, size)
+                                                      : close_domain(layer, fitted.far_field, size, fitted.lines);
+    decoupling::InnerLines lines = inner_lines(fitted.lines, options.lines, region);
+    return {std::move(layer), std::move(size), std::move(region), std::move(lines)};
+}
+
+decoupling::OuterRegion OutlinedMesh::outer(const FittedLayer& fitted, const DecouplingOptions& options) const {
+    return {region.points, region.borders, size, fitted.far_field, options, lines};
+}
+
 MadeMesh make_mesh(const FittedLayer& fitted, const CaseOptions& options, MeshDriver& driver, StageClock& clock) {
     const WorkBudget budget{options.limits, driver.cost()};
     MadeMesh made;
     MeshResult& result = made.result;
-    const layers::Layer layer = close_border(fitted);
-    summarize_layer(fitted, layer, options.layer, result);
-    if (options.surface.treatment == SurfaceTreatment::keep)
-        note_added_points(layer, options.layer.max_ray_angle_deg, result.geometry.elements);
+    const OutlinedMesh outlined = outline_mesh(fitted, options, clock, result);
+    const layers::Layer& layer = outlined.layer;
+    const RegionBorders& region = outlined.region;
+    const decoupling::OuterRegion outer = outlined.outer(fitted, options.decoupling);
     made.constraints = layer.edges.interfaces;
-    clock.end(&StageSeconds::layers);
-
-    clock.begin("sizing");
-    const SizeField size = sizes_beyond(fitted, layer, options.sizing);
-    const RegionBorders region = fitted.far_field.pitch > 0 ? close_row(layer, fitted.below, fitted.far_field, size)
-                                                            : close_domain(layer, fitted.far_field, size, fitted.lines);
-    const decoupling::OuterRegion outer{
-        region.points,    region.borders,     size,
-        fitted.far_field, options.decoupling, inner_lines(fitted.lines, options.lines, region)};
     std::optional<RunEstimate> estimate;
     driver.lead([&] {
         estimate = estimate_within_limits(options, layer, outer, budget);
