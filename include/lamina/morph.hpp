@@ -7,8 +7,9 @@
 //  3. Places use + - * / and square roots alone, in a fixed order, without contraction: they are the same bits on any
 //     machine and any number of threads.
 // Limits:
-//  1. The outer boundary, and all markers that are no walls, stay. Lines inside the mesh move with it.
-//     In slots that close, rays get shorter beyond their first ten layers.
+//  1. The outer boundary, and all markers that are no walls, stay; vertices of horizontal lines of symmetry, as slip ground
+//     is one, slide along them. Lines inside the mesh move with it. In slots that close, rays get shorter beyond their
+//     first ten layers.
 //  2. A map is one step from its reference mesh. Motions that turn a cell over end before that, or with a MeshError, unless
 //     MorphOptions::incremental makes several steps of them.
 // Example:

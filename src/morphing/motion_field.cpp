@@ -16,16 +16,42 @@ namespace {
 
 constexpr std::uint32_t not_free = no_ray;
 
-/// Returns, per vertex, its number among the unknowns: the vertices that are on no ray and not on the boundary.
-std::vector<std::uint32_t> number_free(const Mesh& mesh, const Rays& rays) {
-    std::vector<bool> held = boundary_vertices(mesh);
-    for (std::size_t v = 0; v < held.size(); ++v)
-        if (rays.of_vertex[v] != no_ray) held[v] = true;
-    std::vector<std::uint32_t> number(held.size(), not_free);
-    std::uint32_t next = 0;
-    for (std::size_t v = 0; v < held.size(); ++v)
-        if (!held[v]) number[v] = next++;
-    return number;
+/// Returns, per vertex, whether it may slide: whether all boundary edges at it are pieces of one horizontal line of symmetry.
+std::vector<bool> sliding_vertices(const Mesh& mesh) {
+    std::vector<bool> slides(mesh.points.size(), false), held(mesh.points.size(), false);
+    for (const Marker& marker : mesh.markers) {
+        if (marker.kind == MarkerKind::internal) continue;
+        for (const Segment& edge : marker.edges) {
+            const bool along_x = mesh.points[edge.a.index()].y == mesh.points[edge.b.index()].y;
+            for (const VertexId v : {edge.a, edge.b})
+                (marker.kind == MarkerKind::symmetry && along_x ? slides : held)[v.index()] = true;
+        }
+    }
+    for (std::size_t v = 0; v < held.size(); ++v) slides[v] = slides[v] && !held[v];
+    return slides;
+}
+
+/// The unknowns: first the vertices that are on no ray and not on the boundary, then those that slide along it.
+struct Unknowns {
+    std::vector<std::uint32_t> number;  ///< per vertex of the mesh, or not_free
+    std::vector<std::uint32_t> vertex;  ///< per unknown
+    std::uint32_t inside = 0;           ///< how many of them are not on the boundary
+};
+
+Unknowns number_free(const Mesh& mesh, const Rays& rays) {
+    const std::vector<bool> on_boundary = boundary_vertices(mesh), slides = sliding_vertices(mesh);
+    Unknowns unknowns;
+    unknowns.number.assign(on_boundary.size(), not_free);
+    const auto add = [&](std::size_t v) {
+        unknowns.number[v] = static_cast<std::uint32_t>(unknowns.vertex.size());
+        unknowns.vertex.push_back(static_cast<std::uint32_t>(v));
+    };
+    for (std::size_t v = 0; v < on_boundary.size(); ++v)
+        if (rays.of_vertex[v] == no_ray && !on_boundary[v]) add(v);
+    unknowns.inside = static_cast<std::uint32_t>(unknowns.vertex.size());
+    for (std::size_t v = 0; v < on_boundary.size(); ++v)
+        if (rays.of_vertex[v] == no_ray && slides[v]) add(v);
+    return unknowns;
 }
 
 /// Calls visit(triangle) for the triangles of a mesh, and for the halves of its quads on both sides of that diagonal
@@ -57,12 +83,11 @@ MotionField::MotionField(const Mesh& mesh, const Rays& rays, std::span<const Poi
         wall_.push_back(wall[ray.wall] - origin_);
         kept_.push_back(wall_.back() + ray.kept);
     }
-    const std::vector<std::uint32_t> number = number_free(mesh, rays);
-    for (std::size_t v = 0; v < number.size(); ++v) {
-        if (number[v] == not_free) continue;
-        vertex_.push_back(static_cast<std::uint32_t>(v));
-        from_origin_.push_back(mesh.points[v] - origin_);
-    }
+    const Unknowns unknowns = number_free(mesh, rays);
+    const std::vector<std::uint32_t>& number = unknowns.number;
+    vertex_ = unknowns.vertex;
+    inside_ = unknowns.inside;
+    for (const std::uint32_t v : vertex_) from_origin_.push_back(mesh.points[v] - origin_);
     std::vector<Entry> entries;
     std::vector<double> diagonal(vertex_.size(), 0);
     // Half the cotangent of the angle at c couples a and b, times the stiffness of the triangle.
@@ -92,7 +117,19 @@ MotionField::MotionField(const Mesh& mesh, const Rays& rays, std::span<const Poi
         couple(t.v[2], t.v[0], t.v[1]);
     });
     for (std::uint32_t i = 0; i < diagonal.size(); ++i) entries.push_back({i, i, diagonal[i]});
-    system_ = SymmetricSystem(vertex_.size(), std::move(entries));
+    if (vertex_.size() > inside_) along_ = SymmetricSystem(vertex_.size(), entries);
+    std::erase_if(entries, [&](const Entry& entry) { return entry.row >= inside_; });
+    system_ = SymmetricSystem(inside_, std::move(entries));
+}
+
+std::vector<Row> MotionField::solve(std::span<const Row> right) const {
+    constexpr std::size_t shift_x = 2;  // of a row
+    std::vector<Row> solution = system_.solve(right.first(inside_));
+    if (right.size() == inside_) return solution;
+    solution.resize(right.size(), Row{});
+    const std::vector<Row> along = along_.solve(right);
+    for (std::size_t i = 0; i < right.size(); ++i) solution[i][shift_x] = along[i][shift_x];
+    return solution;
 }
 
 Row MotionField::row_of(const Motion& motion, const Coupling& coupling) const {
@@ -109,7 +146,7 @@ void MotionField::displace(std::span<const Motion> motions, std::span<Point> dis
         const Row row = row_of(motions[coupling.ray], coupling);
         for (std::size_t k = 0; k < 4; ++k) right[coupling.free][k] += coupling.value * row[k];
     }
-    const std::vector<Row> field = system_.solve(right);
+    const std::vector<Row> field = solve(right);
     for (std::size_t i = 0; i < vertex_.size(); ++i)
         displacement[vertex_[i]] =
             product({field[i][0], field[i][1]}, from_origin_[i]) + Point{field[i][2], field[i][3]};
@@ -121,7 +158,7 @@ void MotionField::add_gradient(std::span<const Point> by_displacement, std::span
         const Point by_shift = by_displacement[vertex_[i]], by_turn = product(by_shift, conjugate(from_origin_[i]));
         by_field.push_back({by_turn.x, by_turn.y, by_shift.x, by_shift.y});
     }
-    const std::vector<Row> by_right = system_.solve(by_field);
+    const std::vector<Row> by_right = solve(by_field);
     for (const auto& [free, ray, stretched, value] : couplings_) {
         const Row& row = by_right[free];
         const Point by_turn{row[0], row[1]}, by_shift{row[2], row[3]};

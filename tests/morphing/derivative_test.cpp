@@ -80,10 +80,9 @@ TEST(MorphDerivative, AgreesWithDifferencesInSlots) {
     EXPECT_LT(largest_difference(map.jacobian_vector(wall, direction), difference(map, wall, direction, 1e-3)), 1e-8);
 }
 
-TEST(MorphDerivative, ProductsFromBothSidesAgree) {
-    const Mesh mesh = mesh_with_slot();
-    const MorphMap map(mesh);
-    const std::vector<Point> wall = narrowed_slot(map);
+/// Expects the same of a gradient times the derivative times a direction from both sides.
+void expect_products_agree(const MorphMap& map, const std::vector<Point>& wall) {
+    const Mesh& mesh = map.reference();
     core::Random random(1);
     for (int k = 0; k < 10; ++k) {
         const std::vector<Point> direction = random_vectors(wall.size(), random);
@@ -93,6 +92,21 @@ TEST(MorphDerivative, ProductsFromBothSidesAgree) {
         EXPECT_NEAR(jv, vj,
                     1e-12 * std::sqrt(scalar_product(gradient, gradient) * scalar_product(direction, direction)));
     }
+}
+
+TEST(MorphDerivative, ProductsFromBothSidesAgree) {
+    const Mesh mesh = mesh_with_slot();
+    const MorphMap map(mesh);
+    expect_products_agree(map, narrowed_slot(map));
+}
+
+TEST(MorphDerivative, IsThatOfVerticesThatSlide) {
+    const Mesh mesh = mesh_over_ground();
+    const MorphMap map(mesh);
+    const std::vector<Point> wall = deformed_walls(map, 1.1, 0.01);
+    expect_products_agree(map, wall);
+    const std::vector<Point> direction = moved_walls(map, [](Point p) { return Point{1 + p.y, p.x * p.x}; });
+    EXPECT_LT(largest_difference(map.jacobian_vector(wall, direction), difference(map, wall, direction, 1e-3)), 1e-8);
 }
 
 }  // namespace

@@ -138,6 +138,25 @@ TEST(Morph, WakesFollow) {
     }
 }
 
+// Slip ground stays a line between its ends, along which its vertices go with the section.
+TEST(Morph, VerticesSlideAlongGround) {
+    const Mesh mesh = mesh_over_ground();
+    const MorphMap map(mesh);
+    const MorphResult result = morph(map, moved_walls(map, [](Point p) { return Point{p.x + 0.1, p.y}; }));
+    expect_valid(map, result.points);
+    const MorphReport report = compare_morphed(map, result.points);
+    EXPECT_GT(report.after.mean_min_angle_deg, report.before.mean_min_angle_deg - 0.1);
+    ASSERT_EQ(mesh.markers.back().name, "ground");
+    double farthest = 0;
+    for (const Segment& edge : mesh.markers.back().edges) {
+        const Point before = mesh.points[edge.a.index()], after = result.points[edge.a.index()];
+        EXPECT_EQ(after.y, before.y);
+        farthest = std::max(farthest, after.x - before.x);
+        if (std::abs(before.x) > 9) EXPECT_NEAR(after.x, before.x, 0.02);
+    }
+    EXPECT_GT(farthest, 0.08);
+}
+
 TEST(Morph, ScalesWithTheMesh) {
     const Mesh mesh = mesh_to_morph();
     Mesh large = mesh;

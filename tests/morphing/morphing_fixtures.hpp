@@ -36,6 +36,13 @@ inline Mesh mesh_with_slot() {
         .mesh;
 }
 
+/// Returns the mesh of a section above ground that the flow slips along.
+inline Mesh mesh_over_ground() {
+    CaseOptions options = options_to_morph();
+    options.far_field.ground = 0.3;
+    return generate_mesh({"naca:0012:60"}, options).mesh;
+}
+
 /// Returns the wall points, each moved by a function of its place.
 template <class Move>
 std::vector<Point> moved_walls(const MorphMap& map, Move&& move) {
