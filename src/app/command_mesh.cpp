@@ -19,11 +19,18 @@ void add_mesh_command(CLI::App& app, Ranks* ranks) {
     auto dump = std::make_shared<bool>(false);
     command->add_flag("--dump-config", *dump, "print the options in force as a case file, and do nothing else")
         ->group("Run");
-    command->callback([options, dump, ranks] {
+    auto dry_run = std::make_shared<bool>(false);
+    command
+        ->add_flag("--dry-run", *dry_run,
+                   "say first height, y+, thickness, cells, memory and time without a mesh, and write no file but the "
+                   "report")
+        ->group("Run");
+    command->callback([options, dump, dry_run, ranks] {
         MeshCase mesh_case = case_of_command_line(*options);
         prefer_quads_for_openfoam(mesh_case);
         require_consistent(mesh_case);
         if (*dump) return print_result(dump_case(mesh_case));
+        if (*dry_run) return forecast_mesh_of_case(mesh_case);
         const MeshDestination destination = destination_of_outputs(mesh_case);
         if (ranks != nullptr && ranks->size() > 1) return share_mesh_of_case(mesh_case, destination, *ranks);
         (mesh_case.stream ? stream_mesh_of_case : run_mesh)(mesh_case, destination);

@@ -194,9 +194,9 @@ std::string angles_summary(const MeshResult& result) {
     return text;
 }
 
-Json both_units(double length, double chord) { return {{"chords", length / chord}, {"units", length}}; }
-
 }  // namespace
+
+Json both_units(double length, double chord) { return {{"chords", length / chord}, {"units", length}}; }
 
 std::string conditions_summary(const MeshCase& mesh_case, const MeshResult& result) {
     std::string flow, lengths;

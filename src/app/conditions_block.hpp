@@ -15,6 +15,9 @@ namespace lamina::app {
 /// Returns the block of the summary: one line on the flow, and one on each length in force.
 std::string conditions_summary(const MeshCase& mesh_case, const MeshResult& result);
 
+/// Returns a length in units of the input as reports tell it: in chords, too.
+Json both_units(double length, double chord);
+
 /// Returns the key "conditions" of the report.
 Json conditions_report(const MeshCase& mesh_case, const MeshResult& result);
 

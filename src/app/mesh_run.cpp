@@ -12,6 +12,7 @@
 
 #include <lamina/error.hpp>
 #include <lamina/files.hpp>
+#include <lamina/forecast.hpp>
 #include <lamina/io.hpp>
 #include <lamina/page.hpp>
 #include <lamina/solver_case.hpp>
@@ -196,6 +197,24 @@ void run_mesh(const MeshCase& mesh_case, const MeshDestination& destination) {
     const MeshCounts counts{mesh.points.size(), mesh.triangles.size(), mesh.quads.size()};
     if (!mesh_case.quiet) print_summary(mesh_summary(mesh_case, result, counts, write_seconds), run.outputs);
     require_no_warnings(result.warnings, mesh_case.strict);
+}
+
+void forecast_mesh_of_case(const MeshCase& mesh_case) {
+    require_inputs(mesh_case);
+    std::vector<RunFile> files;
+    if (!mesh_case.report.empty()) {
+        check_folder_writable(mesh_case.report);
+        files.push_back({mesh_case.report, "option --report"});
+        require_distinct(files_of_case(mesh_case), files);
+    }
+    const SignalGuard guard(files);
+    ProgressPrinter progress(mesh_case.progress, mesh_case.quiet);
+    const MeshForecast forecast = forecast_mesh(mesh_case.inputs, options_with_files(mesh_case),
+                                                [&](const auto& event) { progress.begin(event); });
+    print_warnings(forecast.result.warnings);
+    if (!mesh_case.report.empty()) write_file(mesh_case.report, to_text(forecast_report(mesh_case, forecast)));
+    if (!mesh_case.quiet) print_summary(forecast_summary(mesh_case, forecast), files);
+    require_no_warnings(forecast.result.warnings, mesh_case.strict);
 }
 
 void stream_mesh_of_case(const MeshCase& mesh_case, const MeshDestination& destination) {

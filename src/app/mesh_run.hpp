@@ -50,7 +50,10 @@ double write_outputs(const MeshCase& mesh_case, const MeshDestination& destinati
 /// Makes the mesh, writes it and the files beside it, and prints warnings and the summary.
 void run_mesh(const MeshCase& mesh_case, const MeshDestination& destination);
 
-/// Does so for `lamina mesh --stream`, which writes the mesh while it is made. Throws UsageError for outputs that need the
+/// Says what the mesh of a case will be, for `lamina mesh --dry-run`. Of the files of the case it writes the report alone.
+void forecast_mesh_of_case(const MeshCase& mesh_case);
+
+/// Makes a mesh for `lamina mesh --stream`, which writes it while it is made. Throws UsageError for outputs that need the
 /// whole mesh.
 void stream_mesh_of_case(const MeshCase& mesh_case, const MeshDestination& destination);
 

@@ -121,6 +121,16 @@ Json walls_report(const WallSummary& walls) {
             {"worst_first_height_at", {walls.worst_first_height_at.x, walls.worst_first_height_at.y}}};
 }
 
+Json forecast_report(const WallForecast& wall, double chord) {
+    Json report = {{"element", wall.element},
+                   {"first_height", both_units(wall.first_height, chord)},
+                   {"thickness", both_units(wall.thickness, chord)},
+                   {"y_plus", nullptr}};
+    if (const auto& y_plus = wall.y_plus)
+        report["y_plus"] = {{"smallest", y_plus->smallest}, {"median", y_plus->median}, {"largest", y_plus->largest}};
+    return report;
+}
+
 Json border_report(const BorderSteps& steps) {
     return {{"columns", steps.columns},
             {"full_columns", steps.full_columns},
@@ -234,6 +244,27 @@ Json mesh_report(const MeshCase& mesh_case, const MeshResult& result, const Mesh
                    {"hash", facts.hash}};
     if (result.curved.order > 1) report["curved"] = curved_report(result);
     return report;
+}
+
+Json forecast_report(const MeshCase& mesh_case, const MeshForecast& forecast) {
+    const MeshResult& result = forecast.result;
+    Json walls = Json::array();
+    for (const WallForecast& wall : forecast.walls) walls.push_back(forecast_report(wall, result.conditions.chord));
+    return {{"version", LAMINA_VERSION},
+            {"threads", result.threads},
+            {"input", input_report(result.geometry)},
+            {"conditions", conditions_report(mesh_case, result)},
+            {"surface_vertices", result.surface_vertices},
+            {"scale", result.scale},
+            {"forecast",
+             {{"vertices", forecast.vertices},
+              {"layer_cells", forecast.layer_cells},
+              {"cells_beyond", forecast.cells_beyond},
+              {"walls", walls}}},
+            {"layer_cells", layer_cells_report(result)},
+            {"warnings", warnings_report(result.warnings)},
+            {"estimate", estimate_report(result.estimate)},
+            {"seconds", seconds_report(result.seconds, 0)}};
 }
 
 std::string to_text(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }

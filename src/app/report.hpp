@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <lamina/forecast.hpp>
 #include <lamina/limits.hpp>
 #include <lamina/mesh.hpp>
 #include <lamina/mesh_sink.hpp>
@@ -38,6 +39,9 @@ MeshFacts facts_of(const Mesh& mesh);
 /// Returns the report of a run of `lamina mesh`. `write_seconds` is the time for writing the mesh files; "total"
 /// includes it.
 Json mesh_report(const MeshCase& mesh_case, const MeshResult& result, const MeshFacts& facts, double write_seconds);
+
+/// Returns the report of `lamina mesh --dry-run`.
+Json forecast_report(const MeshCase& mesh_case, const MeshForecast& forecast);
 
 /// Returns JSON as text that ends with a newline. Bytes that are not UTF-8 are replaced.
 std::string to_text(const Json& json);

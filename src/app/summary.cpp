@@ -114,6 +114,39 @@ std::string border_line(const BorderSteps& steps) {
                                               steps.max_step));
 }
 
+/// Returns what a summary says before the mesh: of the inputs, and of the options in force.
+std::string given_lines(const MeshCase& mesh_case, const MeshResult& result) {
+    std::string text;
+    for (const Element& element : result.geometry.elements) text += element_lines(element);
+    return text + conditions_summary(mesh_case, result);
+}
+
+/// Returns the line on the scale that a number of vertices or cells asked for.
+std::string scale_line(const CaseOptions& options, double scale) {
+    if (!options.vertices && !options.cells) return "";
+    return summary_line(
+        "scale", fmt::format("{:.4g}, found for the number of {}", scale, options.vertices ? "vertices" : "cells"));
+}
+
+/// Returns the lines on the columns of the layer; empty without one.
+std::string coverage_lines(const MeshResult& result) {
+    const ElementCoverage coverage = total_coverage(result);
+    return coverage.all.requested_cells > 0 ? coverage_line(coverage) + border_line(result.border_steps) : "";
+}
+
+std::string wrote_line(const std::string& file) {
+    return summary_line("wrote", file == "-" ? "standard output" : file);
+}
+
+std::string wall_line(const WallForecast& wall, double chord) {
+    std::string text = summary_line("thickness", fmt::format("{:.4g} chords, {:.4g} units of the input at most on {}",
+                                                             wall.thickness / chord, wall.thickness, wall.element));
+    if (const auto& y_plus = wall.y_plus)
+        text += summary_line("y+", fmt::format("{:.3g} to {:.3g} along {}, {:.3g} in the middle of its length",
+                                               y_plus->smallest, y_plus->largest, wall.element, y_plus->median));
+    return text;
+}
+
 }  // namespace
 
 std::string summary_line(const std::string& label, const std::string& text) {
@@ -152,15 +185,11 @@ std::string curved_line(unsigned order, const CurvedCheck& check) {
 
 std::string mesh_summary(const MeshCase& mesh_case, const MeshResult& result, const MeshCounts& counts,
                          double write_seconds) {
-    std::string text;
-    for (const Element& element : result.geometry.elements) text += element_lines(element);
-    text += conditions_summary(mesh_case, result);
+    std::string text = given_lines(mesh_case, result);
     text += fmt::format("mesh: {} vertices, {} triangles, {}made in {} pieces\n", counts.vertices, counts.triangles,
                         counts.quads > 0 ? fmt::format("{} quads, ", counts.quads) : "",
                         result.layer_pieces + result.inviscid_pieces);
-    if (mesh_case.options.vertices || mesh_case.options.cells)
-        text += summary_line("scale", fmt::format("{:.4g}, found for the number of {}", result.scale,
-                                                  mesh_case.options.vertices ? "vertices" : "cells"));
+    text += scale_line(mesh_case.options, result.scale);
     text += quality_summary(result.check);
     if (result.curved.order > 1)
         text += curved_line(result.curved.order, result.curved_check) +
@@ -169,16 +198,28 @@ std::string mesh_summary(const MeshCase& mesh_case, const MeshResult& result, co
                     fmt::format("{} of {} edges within {:.2g} of the curve, {} of smaller bend within {:.2g}",
                                 result.curving.curved_edges, result.curving.wall_edges, result.curving.wall_distance,
                                 result.curving.reduced_edges, result.curving.reduced_distance));
-    text += fan_line(result);
-    if (const ElementCoverage coverage = total_coverage(result); coverage.all.requested_cells > 0)
-        text += coverage_line(coverage) + border_line(result.border_steps);
+    text += fan_line(result) + coverage_lines(result);
     text += summary_line(
         "time", fmt::format("{:.3f} s to make and check the mesh, {:.3f} s to write it, on {} thread{}",
                             result.seconds.total, write_seconds, result.threads, result.threads == 1 ? "" : "s"));
     std::vector<std::string> files = mesh_case.outputs;
     for (const FileBesideMesh& beside : files_beside_mesh)
         if (const std::string& name = mesh_case.*beside.name; !name.empty()) files.push_back(name);
-    for (const std::string& file : files) text += summary_line("wrote", file == "-" ? "standard output" : file);
+    for (const std::string& file : files) text += wrote_line(file);
+    return text;
+}
+
+std::string forecast_summary(const MeshCase& mesh_case, const MeshForecast& forecast) {
+    const MeshResult& result = forecast.result;
+    std::string text = given_lines(mesh_case, result);
+    text += fmt::format("forecast: about {:.0f} vertices, {:.0f} cells in the layer, about {:.0f} beyond it\n",
+                        forecast.vertices, forecast.layer_cells, forecast.cells_beyond);
+    text += scale_line(mesh_case.options, result.scale);
+    for (const WallForecast& wall : forecast.walls) text += wall_line(wall, result.conditions.chord);
+    text += coverage_lines(result);
+    text += summary_line("estimate", estimate_text(result.estimate));
+    text += summary_line("time", fmt::format("{:.3f} s without a mesh", result.seconds.total));
+    if (!mesh_case.report.empty()) text += wrote_line(mesh_case.report);
     return text;
 }
 

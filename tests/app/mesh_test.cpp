@@ -64,6 +64,20 @@ private:
     static inline const ProgramRun* run_ = nullptr;
 };
 
+TEST_F(MeshCommand, DryRunSaysWhatTheMeshHasAndWritesNone) {
+    const TemporaryFolder empty;
+    const ProgramRun dry = run_lamina(empty, thesis_case({"-o", "n.su2", "--dry-run", "--report", "r.json"}));
+    ASSERT_EQ(dry.exit_code, 0) << dry.err;
+    EXPECT_NE(dry.out.find("cells in the layer, about"), std::string::npos) << dry.out;
+    EXPECT_FALSE(std::filesystem::exists(empty / "n.su2"));
+    const Json said = Json::parse(empty.read("r.json"))["forecast"], made = report();
+    const double in_layer = made["layer_triangles"], beyond = made["isotropic_triangles"], vertices = made["vertices"];
+    EXPECT_NEAR(said["layer_cells"], in_layer, 0.02 * in_layer);
+    EXPECT_NEAR(said["cells_beyond"], beyond, 0.1 * beyond);
+    EXPECT_NEAR(said["vertices"], vertices, 0.1 * vertices);
+    EXPECT_NEAR(said["walls"][0]["first_height"]["chords"], 2.5e-5, 1e-15);
+}
+
 TEST_F(MeshCommand, WritesWhatWasAskedForAndNothingElse) {
     EXPECT_EQ(folder().names(), (std::vector<std::string>{"n.su2", "n.vtu", "r.json"}));
     // Thirty layers end far below isotropy.
