@@ -6,7 +6,7 @@
 // Limits:
 //  1. MeshError for a mesh without markers of the kinds wall and far field. OptionError where the Reynolds number is
 //     missing, or the Mach number of a compressible flow is missing or out of range. UsageError for SU2 where most
-//     cells of the layer are triangles: with the scheme of its case SU2 diverges on them or finds a negative drag.
+//     cells of the layer are triangles, on which it diverges or finds a negative drag; for PyFR where it has no such flow.
 // Example:
 //     CaseOptions options{.far_field = {.size = 10}};
 //     options.layer = {.first_height = 1e-3, .layers = 8, .topology = LayerTopology::quads};
@@ -19,6 +19,7 @@
 #include <span>
 #include <utility>
 
+#include <lamina/curved_mesh.hpp>
 #include <lamina/flow.hpp>
 #include <lamina/mesh.hpp>
 #include <lamina/morph.hpp>
@@ -29,6 +30,7 @@ namespace lamina {
 enum class FlowSolver {
     openfoam,  ///< OpenFOAM: simpleFoam, rhoSimpleFoam (SolverCaseOptions::compressible), pimpleFoam (unsteady)
     su2,       ///< SU2_CFD: compressible
+    pyfr,      ///< PyFR 3.1: compressible and laminar, in time, by polynomials of the order of the cells
 };
 
 /// Turbulence models of cases.
@@ -49,7 +51,8 @@ struct SolverCaseOptions {
     /// Whether OpenFOAM's case is that of a gas, at ReferenceConditions::mach, above 0 and below 1. SU2's always is.
     bool compressible = false;
     /// Whether the case is solved in time, for flow that sheds vortices: by pimpleFoam, or in dual time steps of SU2. In one
-    /// step the free stream crosses one edge of a triangle of the wake. OpenFOAM's is for incompressible flow.
+    /// step the free stream crosses one edge of a triangle of the wake. OpenFOAM's is for incompressible flow. PyFR always
+    /// solves in time, and begins with a gust then.
     bool unsteady = false;
     /// The force whose adjoint solution OpenFOAM's steady incompressible case finds by Alladjoint, after Allrun; empty: none.
     /// The adjoint of Spalart-Allmaras is a part of it; with k-omega SST the turbulent viscosity counts as given.
@@ -57,15 +60,15 @@ struct SolverCaseOptions {
 };
 
 /// Throws OptionError where no case of the solver is for a flow of this Mach number, which may be missing, for one in
-/// time, or for an adjoint solution.
+/// time, for an adjoint solution, or with this model of turbulence.
 LAMINA_EXPORT void validate(FlowSolver solver, const SolverCaseOptions& options, const std::optional<double>& mach);
-/// Returns the solvers by their names on the command line: "openfoam", "su2".
+/// Returns the solvers by their names on the command line: "openfoam", "su2", "pyfr".
 LAMINA_EXPORT const std::vector<std::pair<std::string, FlowSolver>>& flow_solvers();
 /// The Mach number of a case of SU2 where none is given.
 inline constexpr double default_case_mach = 0.15;
 /// Returns the half-width of the far field, in chords, that suits the conditions that the solver has for it at a Mach
 /// number: OpenFOAM's far field carries the vortex of the lift; SU2's is a uniform stream, and what is behind shocks of
-/// supersonic flow reaches no far.
+/// supersonic flow reaches no far; PyFR's explicit steps make cells expensive.
 LAMINA_EXPORT double far_field_for(FlowSolver solver, double mach = default_case_mach);
 
 /// The flow that a case computes, and what its coefficients count. Lengths are in units of the mesh.
@@ -82,8 +85,10 @@ struct SolverConditions {
     bool axisymmetric = false;
 };
 
-/// Returns WarningCode::unsuited_to_solver where most cells of the layer are triangles, on which simpleFoam diverges.
-LAMINA_EXPORT std::vector<Warning> find_solver_warnings(FlowSolver solver, const Mesh& mesh);
+/// Returns WarningCode::unsuited_to_solver where most cells of the layer are triangles, on which simpleFoam diverges, and for
+/// PyFR where the flow would be turbulent.
+LAMINA_EXPORT std::vector<Warning> find_solver_warnings(FlowSolver solver, const Mesh& mesh,
+                                                        const ReferenceConditions& conditions = {});
 /// Returns WarningCode::unsuited_speed where the mesh of a compressible case is not made for this Mach number: sizes follow
 /// no shocks (FlowDecisions::knows_shocks), and the Mach number is above 0.5, or the flow is expected to be supersonic
 /// along more than 0.05 chords of the walls, by the pressures of the incompressible flow before the mesh (null where there
@@ -97,9 +102,11 @@ LAMINA_EXPORT std::vector<std::filesystem::path> solver_case_outputs(FlowSolver 
 /// SolverCaseOptions::overwrite is not set, IoError where the folder cannot be written to.
 LAMINA_EXPORT void check_solver_case_writable(FlowSolver solver, const std::filesystem::path& folder,
                                               const SolverCaseOptions& options = {});
-/// Writes mesh and case into a folder, which is created if it is missing.
+/// Writes mesh and case into a folder, which is created if it is missing. The cells may be curved for PyFR, whose solution
+/// has their order.
 LAMINA_EXPORT void write_solver_case(FlowSolver solver, const Mesh& mesh, const SolverConditions& conditions,
-                                     const std::filesystem::path& folder, const SolverCaseOptions& options = {});
+                                     const std::filesystem::path& folder, const SolverCaseOptions& options = {},
+                                     const CurvedNodes& nodes = {});
 /// Gives a steady case that was just written the flow of a solved one as its start, by transfer(): Allrun goes on from there.
 /// OpenFOAM's fields in 0/ are replaced, and system/start holds the lift coefficient, for the vortex of the far field;
 /// SU2's flow is in start_flow.dat. Throws IoError, and InputError or UsageError where the solution is incomplete, is of

@@ -20,7 +20,6 @@
 #include <lamina/solver_case.hpp>
 #include <lamina/warning.hpp>
 
-#include "app/mesh_run.hpp"
 #include "app/solver_case_run.hpp"
 #include "arrays.hpp"
 #include "bindings.hpp"
@@ -122,7 +121,6 @@ nb::tuple write_case(const CaseArguments& arguments, const nb::list& given_secti
     app::MeshCase mesh_case;
     mesh_case.options = request.options;
     mesh_case.given = request.given;
-    app::require_straight(mesh_case);
     app::prepare_case(solver, options, mesh_case);
     request.options = mesh_case.options;
     check_solver_case_writable(solver, arguments.folder, options);
@@ -135,7 +133,7 @@ nb::tuple write_case(const CaseArguments& arguments, const nb::list& given_secti
         for (Warning& warning : app::warnings_of_case(solver, result, options))
             result.warnings.push_back(std::move(warning));
         write_solver_case(solver, result.mesh, app::solver_conditions(result, request.options), arguments.folder,
-                          options);
+                          options, result.curved);
     });
     return to_python(std::move(result));
 }

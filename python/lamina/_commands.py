@@ -174,15 +174,15 @@ def info(sections: Sections, **options: Unpack[MeshOptions]) -> Info:
 
 
 @with_options
-def case(solver: Literal["openfoam", "su2"], folder: str | os.PathLike[str], sections: Sections, *,
+def case(solver: Literal["openfoam", "su2", "pyfr"], folder: str | os.PathLike[str], sections: Sections, *,
          turbulence: Literal["sa", "komega-sst", "laminar"] | None = None, unsteady: bool = False,
          overwrite: bool = False, progress: Progress = None,
          **options: Unpack[MeshOptions]) -> Mesh:
     """Makes a mesh and writes it into a folder with all that a flow solver needs beside it, as `lamina case` does.
 
-    turbulence: the model; None: none below a Reynolds number of 1e4, Spalart-Allmaras above. unsteady: the case is solved
-    in time. overwrite: files of the folder are replaced. Returns the mesh. Raises what `lamina.mesh()` raises, and
-    UsageError where files are there already.
+    turbulence: the model; None: none below a Reynolds number of 1e4 and for PyFR, Spalart-Allmaras above. unsteady: the
+    case is solved in time. overwrite: files of the folder are replaced. Returns the mesh. Raises what `lamina.mesh()`
+    raises, and UsageError where files are there already.
 
     Examples
     --------

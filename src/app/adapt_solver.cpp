@@ -245,6 +245,7 @@ private:
 }  // namespace
 
 std::unique_ptr<AdaptSolver> adapt_solver(const std::string& name, const SolverCaseOptions& options) {
+    if (name == "pyfr") throw UsageError("option --solver: solutions of pyfr are not read: take openfoam or su2");
     for (const auto& [known, solver] : flow_solvers())
         if (known == name) return std::make_unique<KnownSolver>(solver, options);
     return std::make_unique<CommandSolver>(name);

@@ -54,9 +54,9 @@ void add_case_command(CLI::App& app) {
         ->add_option("SOLVER", arguments->solver,
                      "openfoam: simpleFoam, or rhoSimpleFoam with --mach, or pimpleFoam with --unsteady, run by "
                      "DIR/Allrun; su2: SU2_CFD, run by "
-                     "DIR/Allrun")
+                     "DIR/Allrun; pyfr: PyFR on curved cells (--order, 3 unless given), laminar, run by DIR/Allrun")
         ->required()
-        ->type_name("openfoam|su2");
+        ->type_name("openfoam|su2|pyfr");
     command
         ->add_option("-o,--output", arguments->folder,
                      "folder to write the mesh and the case into; of several levels: {level} stands for the number")
@@ -72,8 +72,8 @@ void add_case_command(CLI::App& app) {
     arguments->family = add_family_options(*command, 1);
     for (const char* const name : {"--ratio", "--base-level", "--table"})
         command->get_option(name)->needs(command->get_option("--levels"));
-    arguments->mesh = add_mesh_options(
-        *command, {"output", "format", "order", "parts", "span", "span-cells", "span-ends", "wall-distance"});
+    arguments->mesh =
+        add_mesh_options(*command, {"output", "format", "parts", "span", "span-cells", "span-ends", "wall-distance"});
     command->callback([arguments] { make_case(*arguments); });
 }
 

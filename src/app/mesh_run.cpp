@@ -132,7 +132,7 @@ void require_whole(const MeshCase& mesh_case) {
 
 void require_straight(const MeshCase& mesh_case) {
     if (mesh_case.options.order > 1)
-        throw UsageError("option --order: only 'lamina mesh', 'family' and 'batch' make curved cells");
+        throw UsageError("option --order: only 'lamina mesh', 'family', 'batch' and 'case pyfr' make curved cells");
 }
 
 void add_warnings_of_readers(const MeshCase& mesh_case, const MeshDestination& destination, MeshResult& result) {

@@ -25,6 +25,8 @@ void apply_preferences(FlowSolver solver, MeshCase& mesh_case) {
     constexpr double gradation = 0.13;
     prefer_quads(mesh_case);
     CaseOptions& options = mesh_case.options;
+    constexpr unsigned order_in_pyfr = 3;
+    if (solver == FlowSolver::pyfr && !is_given(mesh_case, "order")) options.order = order_in_pyfr;
     if (!is_given(mesh_case, "far-field") && !options.far_field.tunnel && !options.far_field.pitch)
         options.far_field.size = Length{far_field_for(solver, options.conditions.mach.value_or(default_case_mach))};
     // Some presets have one of their own.
@@ -44,7 +46,7 @@ FlowSolver solver_of_name(const std::string& name) {
 }
 
 std::vector<Warning> warnings_of_case(FlowSolver solver, const MeshResult& result, const SolverCaseOptions& options) {
-    std::vector<Warning> warnings = find_solver_warnings(solver, result.mesh);
+    std::vector<Warning> warnings = find_solver_warnings(solver, result.mesh, result.conditions);
     if (solver == FlowSolver::openfoam && !options.compressible) return warnings;
     std::vector<Warning> of_speed =
         find_speed_warnings(result.conditions.mach.value_or(default_case_mach), result.flow ? &*result.flow : nullptr,
@@ -72,12 +74,14 @@ SolverConditions solver_conditions(const MeshResult& result, const CaseOptions& 
 MeshDestination destination_of_case(FlowSolver solver, const MeshCase& mesh_case, const SolverCaseOptions& options) {
     const std::string folder = mesh_case.outputs.front();
     MeshDestination destination;
+    destination.holds_curved_cells = true;  // prepare_case() refuses them where they are not
     for (const auto& file : solver_case_outputs(solver, folder, options))
         destination.files.push_back({file, "option --output " + folder});
     destination.require_writable = [=] { check_solver_case_writable(solver, folder, options); };
     destination.warnings = [=](const MeshResult& result) { return warnings_of_case(solver, result, options); };
     destination.write = [=, &mesh_case](const MeshResult& result) {
-        write_solver_case(solver, result.mesh, solver_conditions(result, mesh_case.options), folder, options);
+        write_solver_case(solver, result.mesh, solver_conditions(result, mesh_case.options), folder, options,
+                          result.curved);
     };
     return destination;
 }
@@ -85,6 +89,8 @@ MeshDestination destination_of_case(FlowSolver solver, const MeshCase& mesh_case
 void prepare_case(FlowSolver solver, SolverCaseOptions& options, MeshCase& mesh_case) {
     if (mesh_case.options.conditions.alphas)
         throw OptionError("alpha", "a case is for one angle of attack; lamina polar runs a range of them");
+    if (solver != FlowSolver::pyfr && mesh_case.options.order > 1)
+        throw OptionError("order", "the cells of a case are straight, but for those of pyfr");
     options.compressible = mesh_case.options.conditions.mach.has_value();
     validate(solver, options, mesh_case.options.conditions.mach);
     apply_preferences(solver, mesh_case);

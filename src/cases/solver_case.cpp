@@ -35,12 +35,14 @@ struct SolverEntry {
     const char* format;   ///< of its mesh (io.hpp)
     const char* mesh;     ///< name of the mesh within the case; empty: the case is the name
     double far_field;     ///< far_field_for()
+    bool marches;         ///< whether steady flow, too, is found in time
     Words (*words)(const CaseFlow&);
 };
 
 constexpr std::array solver_entries{
-    SolverEntry{FlowSolver::openfoam, "simpleFoam", "openfoam", "openfoam", "", 100, openfoam_words},
-    SolverEntry{FlowSolver::su2, "SU2_CFD", "su2", "su2", "mesh.su2", 5000, su2_words},
+    SolverEntry{FlowSolver::openfoam, "simpleFoam", "openfoam", "openfoam", "", 100, false, openfoam_words},
+    SolverEntry{FlowSolver::su2, "SU2_CFD", "su2", "su2", "mesh.su2", 5000, false, su2_words},
+    SolverEntry{FlowSolver::pyfr, "PyFR", "pyfr", "msh22", "mesh.msh", 100, true, pyfr_words},
 };
 
 const SolverEntry& entry_of(FlowSolver solver) {
@@ -86,7 +88,8 @@ fs::path name_in_case(const Template& file) {
 bool belongs_to_case(const Template& file, const SolverEntry& entry, TurbulenceModel turbulence,
                      const SolverCaseOptions& options) {
     const std::string_view name = file.name;
-    if ((file.solver != entry.name && file.solver != "common") || !suits_time(name, options.unsteady)) return false;
+    if ((file.solver != entry.name && file.solver != "common") || !suits_time(name, options.unsteady || entry.marches))
+        return false;
     constexpr std::array of_gas{"0/T",
                                 "0/alphat",
                                 "constant/thermophysicalProperties",
@@ -207,8 +210,26 @@ TimeSteps steps_in_time(const Mesh& mesh, const CaseFlow& flow) {
             .times = flow.turbulence == TurbulenceModel::laminar ? laminar_times : times};
 }
 
+/// Returns the least height that a cell has over its longest edge, as if it were straight.
+double least_height(const Mesh& mesh) {
+    double least = HUGE_VAL;
+    const auto include = [&](const auto& corners) {
+        const std::size_t n = std::size(corners);
+        double twice_area = 0, longest = 0;
+        for (std::size_t i = 0; i < n; ++i) {
+            const Point a = mesh.points[corners[i].index()], b = mesh.points[corners[(i + 1) % n].index()];
+            twice_area += cross(a - mesh.points[corners[0].index()], b - a);
+            longest = std::max(longest, distance(a, b));
+        }
+        least = std::min(least, (n == 3 ? twice_area : twice_area / 2) / longest);
+    };
+    for (const Triangle& triangle : mesh.triangles) include(triangle.v);
+    for (const Quad& quad : mesh.quads) include(quad.v);
+    return least;
+}
+
 CaseFlow case_flow(FlowSolver solver, const Mesh& mesh, const SolverConditions& conditions,
-                   const SolverCaseOptions& options) {
+                   const SolverCaseOptions& options, unsigned order) {
     const auto& [chord, alpha_deg, reynolds, mach] = conditions.reference;
     if (!reynolds) throw OptionError("reynolds", "a case needs it, or velocity and viscosity");
     validate(solver, options, mach);
@@ -224,7 +245,10 @@ CaseFlow case_flow(FlowSolver solver, const Mesh& mesh, const SolverConditions& 
     flow.direction = {core::cos_reproducible(alpha), core::sin_reproducible(alpha)};
     flow.wall_functions = conditions.wall_functions;
     flow.adjoint = options.adjoint;
-    flow.turbulence = turbulence_of(options, flow::is_laminar(conditions.reference));
+    flow.turbulence = turbulence_of(options, solver == FlowSolver::pyfr || flow::is_laminar(conditions.reference));
+    flow.order = order;
+    flow.least_height = least_height(mesh);
+    flow.has_internal_lines = !names_of_markers(mesh, MarkerKind::internal).empty();
     flow.walls = names_of_markers(mesh, MarkerKind::wall);
     flow.far_fields = names_of_markers(mesh, MarkerKind::far_field);
     flow.symmetries = names_of_markers(mesh, MarkerKind::symmetry);
@@ -245,14 +269,26 @@ CaseFlow case_flow(FlowSolver solver, const Mesh& mesh, const SolverConditions& 
     return flow;
 }
 
-/// Returns the words for what Allrun does in time, which all solvers have in common.
+/// Returns the words for the flow, and for what Allrun does in time, which solvers have in common.
 Words words_of_run(const CaseFlow& flow) {
     const TimeSteps time = flow.time.value_or(TimeSteps{});
     // The moment point is a quarter of the chord behind the nose.
-    return {{"STEPS", fmt::format("{}", time.per_time)},
+    return {{"TITLE", fmt::format("Reynolds number {}, Mach number {}, angle of attack {} degrees, chord {}",
+                                  flow.reynolds, flow.mach, flow.alpha_deg, flow.chord)},
+            {"STEPS", fmt::format("{}", time.per_time)},
             {"TIMES", fmt::format("{}", time.times)},
             {"MIDDLE_X", fmt::format("{}", flow.moment_point.x + flow.chord / 4)},
             {"MIDDLE_Y", fmt::format("{}", flow.moment_point.y)}};
+}
+
+/// Writes the mesh of a case. PyFR reads one region of cells alone.
+void write_case_mesh(const SolverEntry& entry, const Mesh& mesh, const CurvedNodes& nodes, const fs::path& folder) {
+    MeshView view = mesh;
+    if (entry.solver == FlowSolver::pyfr) view.region = {};
+    if (nodes.order > 1)
+        write_curved_mesh(view, nodes, mesh_file(entry, folder), {.format = entry.format});
+    else
+        write_mesh(view, mesh_file(entry, folder), {.format = entry.format});
 }
 
 }  // namespace
@@ -268,13 +304,13 @@ void write_case_file(const SolverCaseFile& file, const fs::path& folder) {
 }
 
 std::vector<SolverCaseFile> solver_case_files(FlowSolver solver, const Mesh& mesh, const SolverConditions& conditions,
-                                              const SolverCaseOptions& options) {
+                                              const SolverCaseOptions& options, unsigned order) {
     if (solver == FlowSolver::su2 && thin_triangles(mesh) > 0)
         throw UsageError(
             "a case of SU2 needs quadrilaterals in the layer, since SU2 finds wrong forces on triangles: "
             "--layer-topology quads, with thinner or fewer layers where rows would cross");
     const SolverEntry& entry = entry_of(solver);
-    const CaseFlow flow = case_flow(solver, mesh, conditions, options);
+    const CaseFlow flow = case_flow(solver, mesh, conditions, options, order);
     Words words = entry.words(flow);
     words.merge(words_of_run(flow));
     std::vector<SolverCaseFile> files;
@@ -308,13 +344,15 @@ void validate(FlowSolver solver, const SolverCaseOptions& options, const std::op
                                                             : nullptr;
         if (reason != nullptr) throw OptionError("adjoint", reason);
     }
+    if (solver == FlowSolver::pyfr && options.turbulence.value_or(TurbulenceModel::laminar) != TurbulenceModel::laminar)
+        throw OptionError("turbulence", "a case of PyFR has no model: laminar");
     if (!options.compressible) return;
     if (solver == FlowSolver::openfoam && options.unsteady)
         throw OptionError("unsteady", "a case of OpenFOAM in time is incompressible: leave out mach, or take su2");
     if (!mach) throw OptionError("mach", "a compressible flow needs it");
-    if (solver == FlowSolver::openfoam && !(*mach > 0 && *mach < 1))
-        throw OptionError(
-            "mach", fmt::format("must be above 0 and below 1 in a case of OpenFOAM, not {}: su2 takes more", *mach));
+    if (solver != FlowSolver::su2 && !(*mach > 0 && *mach < 1))
+        throw OptionError("mach", fmt::format("must be above 0 and below 1 in a case of {}, not {}: su2 takes more",
+                                              solver == FlowSolver::pyfr ? "PyFR" : "OpenFOAM", *mach));
 }
 
 double far_field_for(FlowSolver solver, double mach) {
@@ -322,9 +360,16 @@ double far_field_for(FlowSolver solver, double mach) {
     return mach < 1 ? entry_of(solver).far_field : supersonic;
 }
 
-std::vector<Warning> find_solver_warnings(FlowSolver solver, const Mesh& mesh) {
+std::vector<Warning> find_solver_warnings(FlowSolver solver, const Mesh& mesh, const ReferenceConditions& conditions) {
+    if (solver == FlowSolver::pyfr && conditions.reynolds && !flow::is_laminar(conditions))
+        return {{.code = WarningCode::unsuited_to_solver,
+                 .number = *conditions.reynolds,
+                 .unit = "Reynolds number",
+                 .message = fmt::format("a plane case of PyFR has no model of turbulence, which flow at a Reynolds "
+                                        "number of {:.4g} has: lamina case su2",
+                                        *conditions.reynolds)}};
     const std::ptrdiff_t triangles = thin_triangles(mesh);
-    if (solver == FlowSolver::su2 || triangles == 0) return {};
+    if (solver != FlowSolver::openfoam || triangles == 0) return {};
     return {
         {.code = WarningCode::unsuited_to_solver,
          .number = static_cast<double>(triangles),
@@ -364,9 +409,9 @@ void check_solver_case_writable(FlowSolver solver, const fs::path& folder, const
 }
 
 void write_solver_case(FlowSolver solver, const Mesh& mesh, const SolverConditions& conditions, const fs::path& folder,
-                       const SolverCaseOptions& options) {
+                       const SolverCaseOptions& options, const CurvedNodes& nodes) {
     check_solver_case_writable(solver, folder, options);
-    const std::vector<SolverCaseFile> files = solver_case_files(solver, mesh, conditions, options);
+    const std::vector<SolverCaseFile> files = solver_case_files(solver, mesh, conditions, options, nodes.order);
     const SolverEntry& entry = entry_of(solver);
     core::NewFolders folders;
     std::vector<fs::path> fresh;  // what a failure must not leave
@@ -376,7 +421,7 @@ void write_solver_case(FlowSolver solver, const Mesh& mesh, const SolverConditio
         folders.create_above(output);
     }
     try {
-        write_mesh(mesh, mesh_file(entry, folder), {.format = entry.format});
+        write_case_mesh(entry, mesh, nodes, folder);
         for (const SolverCaseFile& part : files) write_case_file(part, folder);
     } catch (...) {
         for (const fs::path& output : fresh) fs::remove_all(output, ignored);

@@ -123,8 +123,6 @@ Words su2_words(const CaseFlow& flow) {
     const bool sst = flow.turbulence == TurbulenceModel::k_omega_sst,
                laminar = flow.turbulence == TurbulenceModel::laminar;
     Words words;
-    words["TITLE"] = fmt::format("Reynolds number {}, Mach number {}, angle of attack {} degrees, chord {}",
-                                 flow.reynolds, flow.mach, flow.alpha_deg, flow.chord);
     words["EQUATIONS"] = laminar ? "NAVIER_STOKES" : "RANS";
     words["TURBULENCE_MODEL"] = laminar ? "NONE" : sst ? "SST" : "SA";
     // Upstream, SST has the turbulence that NASA's Turbulence Modeling Resource recommends: k is 9e-9 times the square

@@ -37,7 +37,9 @@ struct CaseFlow {
     bool compressible = false;  ///< SolverCaseOptions::compressible
     double velocity = 1;
     std::optional<AdjointGoal> adjoint{};  ///< SolverCaseOptions::adjoint
-    std::optional<TimeSteps> time{};       ///< empty: the case is steady
+    std::optional<TimeSteps> time{};       ///< empty: the flow is steady
+    unsigned order = 1;                    ///< of the cells, and of the solution in PyFR
+    double least_height = 0;               ///< of all cells, over their longest edges
     double viscosity = 0;                  ///< kinematic: velocity x chord / Reynolds number
     Point direction;                       ///< of the free stream, of length 1
     Point moment_point;
@@ -48,6 +50,7 @@ struct CaseFlow {
     std::vector<std::string> symmetries;    ///< likewise, if any
     std::vector<std::string> outer_walls;   ///< SolverConditions::outer_walls
     std::vector<std::string> moving_walls;  ///< SolverConditions::moving_walls
+    bool has_internal_lines = false;        ///< whether the mesh has markers inside it
     bool axisymmetric = false;              ///< SolverConditions::axisymmetric
     std::optional<BladeRow> row{};          ///< then the far fields are `inlet` and `outlet`
     double area = 1;                        ///< that coefficients count, for a span of 1 or for a body of revolution
@@ -73,6 +76,8 @@ std::string angles_of(const CaseFlow& flow, double largest_step);
 /// Return the words for the files of each solver.
 Words openfoam_words(const CaseFlow& flow);
 Words su2_words(const CaseFlow& flow);
+/// Throws UsageError for flows and names of markers that PyFR does not know.
+Words pyfr_words(const CaseFlow& flow);
 /// Returns the speed of sound in the free stream of SU2's cases, in m/s.
 double su2_sound_speed();
 /// Returns the options of SU2's steps in time, each of so many seconds.

@@ -532,6 +532,35 @@ TEST(SolverCaseCommand, Su2IsRefusedTrianglesInTheLayer) {
     EXPECT_FALSE(fs::exists(folder / "c"));
 }
 
+TEST(SolverCaseCommand, WritesPyfrWithCurvedCells) {
+    const TemporaryFolder folder;
+    const ProgramRun turbulent = run_lamina(folder, small_case("pyfr"));
+    ASSERT_EQ(turbulent.exit_code, 0) << turbulent.err;
+    EXPECT_NE(turbulent.err.find("no model of turbulence"), std::string::npos) << turbulent.err;
+    const CurvedMesh mesh = read_curved_mesh(folder / "c/mesh.msh");
+    EXPECT_EQ(mesh.nodes.order, 3u);
+    EXPECT_TRUE(check_curved(mesh.mesh, mesh.nodes).valid());
+    EXPECT_TRUE(mesh.mesh.region.empty());
+    EXPECT_NE(folder.read("c/case.ini").find("\norder = 3\n"), std::string::npos);
+    Words words = small_case("pyfr", {"--order", "1", "--overwrite"});
+    *(std::find(words.begin(), words.end(), "--reynolds") + 1) = "5000";
+    const ProgramRun laminar = run_lamina(folder, words);
+    ASSERT_EQ(laminar.exit_code, 0) << laminar.err;
+    EXPECT_EQ(laminar.err, "");
+    EXPECT_EQ(read_curved_mesh(folder / "c/mesh.msh").nodes.order, 1u);
+    EXPECT_NE(folder.read("c/case.ini").find("\norder = 1\n"), std::string::npos);
+}
+
+TEST(SolverCaseCommand, PyfrIsRefusedWhatItDoesNotKnow) {
+    const TemporaryFolder folder;
+    expect_refused(folder, small_case("su2", {"--order", "2"}), usage, "pyfr");
+    expect_refused(folder, small_case("pyfr", {"--order", "5"}), usage, "order");
+    expect_refused(folder, small_case("pyfr", {"--turbulence", "sa"}), usage, "laminar");
+    expect_refused(folder, small_case("pyfr", {"--mach", "1.2"}), usage, "below 1 in a case of PyFR");
+    expect_refused(folder, small_case("pyfr", {"--layer-topology", "delaunay"}), usage, "quads or layered");
+    EXPECT_FALSE(fs::exists(folder / "c"));
+}
+
 // First order, then one block of second order: enough to see that files fit each other and residuals fall.
 TEST(SolverCaseCommand, OpenFoamRunsTheCase) {
     if (std::system("command -v rhoSimpleFoam >/dev/null 2>&1") != 0)
