@@ -38,10 +38,11 @@ LAMINA_EXPORT void validate(const TransitionOptions& options);
 /// The flow with boundary layers that displace it.
 struct CoupledFlow {
     Flow flow;  ///< speeds, pressures and layers at the nodes of the panels; Flow::panels are those of potential flow
-    FlowForces forces;                                  ///< drag after Squire and Young at the end of the wake
-    double transition_upper = 1, transition_lower = 1;  ///< shares of the section's extent in x
-    bool converged = false;                             ///< whether layers and flow agree
-    int steps = 0;                                      ///< of Newton's method
+    FlowForces forces;            ///< drag after Squire and Young at the end of the wake
+    double transition_upper = 1;  ///< where the layer becomes turbulent, as a share of the section's extent in x
+    double transition_lower = 1;  ///< the same on the lower side
+    bool converged = false;       ///< whether layers and flow agree
+    int steps = 0;                ///< of Newton's method
 };
 
 /// Returns the flow round one section at each of the conditions. Layers follow the equations of momentum, kinetic energy and
