@@ -11,8 +11,8 @@ namespace {
 
 /// Nodes and weights of the Gauss-Legendre rule of five points on [0, 1].
 /// Source: M. Abramowitz, I. A. Stegun, Handbook of Mathematical Functions (1964), table 25.4.
-constexpr std::array<double, 5> nodes{0.04691007703066800, 0.23076534494715845, 0.5, 0.76923465505284155,
-                                      0.95308992296933200};
+constexpr std::array<double, 5> gauss_nodes{0.04691007703066800, 0.23076534494715845, 0.5, 0.76923465505284155,
+                                            0.95308992296933200};
 constexpr std::array<double, 5> weights{0.11846344252809454, 0.23931433524968324, 0.28444444444444444,
                                         0.23931433524968324, 0.11846344252809454};
 
@@ -23,7 +23,8 @@ double speed(const surface::SplineCurve& curve, std::size_t piece, double share,
 
 double arc_up_to(const surface::SplineCurve& curve, std::size_t piece, double share, double chord) {
     double sum = 0;
-    for (std::size_t k = 0; k < nodes.size(); ++k) sum += weights[k] * speed(curve, piece, share * nodes[k], chord);
+    for (std::size_t k = 0; k < gauss_nodes.size(); ++k)
+        sum += weights[k] * speed(curve, piece, share * gauss_nodes[k], chord);
     return share * sum;
 }
 

@@ -84,14 +84,21 @@ void stroke_edge(Canvas& canvas, const DrawnEdge& edge, Color color, double alph
         canvas.stroke(edge.points[k], edge.points[k + 1], color, alpha, width);
 }
 
+/// Cells that are drawn in the same way.
+struct DrawnCells {
+    std::vector<VisibleCell> cells;
+    std::vector<Color> colors;
+};
+
 /// Fills the cells. If with_grey is set, cells so thin that their edges would merge into a blot get the grey of the ink
 /// that their edges have on the whole, so that no pale line lies between them and thicker ones.
-void draw_cells(Canvas& canvas, const std::vector<VisibleCell>& cells, const std::vector<Color>& colors,
-                const DrawnEdges& edges, const PictureView& view, bool with_grey, double width) {
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-        const bool too_thin = with_grey && cells[i].thickness() * view.scale < min_outlined_thickness;
-        canvas.fill(border_of(cells[i], edges),
-                    too_thin ? mix(colors[i], ink, covered_share(cells[i], view, width)) : colors[i]);
+void draw_cells(Canvas& canvas, const DrawnCells& drawn, const DrawnEdges& edges, const PictureView& view,
+                bool with_grey, double width) {
+    for (std::size_t i = 0; i < drawn.cells.size(); ++i) {
+        const VisibleCell& cell = drawn.cells[i];
+        const Color color = drawn.colors[i];
+        const bool too_thin = with_grey && cell.thickness() * view.scale < min_outlined_thickness;
+        canvas.fill(border_of(cell, edges), too_thin ? mix(color, ink, covered_share(cell, view, width)) : color);
     }
 }
 
@@ -147,12 +154,6 @@ void draw_dots(Canvas& canvas, const Mesh& mesh, const PictureView& view, double
     }
 }
 
-/// Cells that are drawn in the same way.
-struct DrawnCells {
-    std::vector<VisibleCell> cells;
-    std::vector<Color> colors;
-};
-
 /// Takes the cells away that are too small to be told apart, if there are many of them.
 DrawnCells take_small_cells(DrawnCells& drawn, const PictureView& view) {
     DrawnCells small, large;
@@ -168,7 +169,7 @@ DrawnCells take_small_cells(DrawnCells& drawn, const PictureView& view) {
 
 void draw_drawn_cells(Canvas& canvas, const DrawnEdges& edges, const DrawnCells& drawn, const PictureView& view,
                       bool colored, double edge_width) {
-    draw_cells(canvas, drawn.cells, drawn.colors, edges, view, !colored, edge_width);
+    draw_cells(canvas, drawn, edges, view, !colored, edge_width);
     draw_edges(canvas, edges, drawn.cells, view, edge_width, colored ? 0.45 : 1);
 }
 

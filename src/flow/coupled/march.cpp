@@ -178,6 +178,26 @@ Station first_of_wake(const Station& upper, const Station& lower, const Station&
     return first;
 }
 
+namespace {
+
+/// How layers come to a station: from the one before it, unless it is the first, and as what.
+struct Approach {
+    const Station* before;
+    bool laminar, at_last;
+};
+
+IntervalKind kind_after(const Approach& approach, const Station& now, const std::optional<double>& trip,
+                        const LayerConditions& conditions) {
+    if (!trip) return IntervalKind::wake;
+    if (!approach.before) return IntervalKind::first;
+    if (!approach.laminar) return IntervalKind::turbulent;
+    const bool ends = approach.at_last || *trip <= now.x ||
+                      grown_exponent(*approach.before, now, conditions) >= conditions.critical_exponent;
+    return ends ? IntervalKind::transition : IntervalKind::laminar;
+}
+
+}  // namespace
+
 void lead_layers(Stretch& stretch, std::vector<Station>& stations, const LayerConditions& conditions, bool prescribed,
                  const std::function<SpeedLaw(std::size_t)>& law) {
     const bool in_wake = !stretch.trip;
@@ -187,12 +207,7 @@ void lead_layers(Stretch& stretch, std::vector<Station>& stations, const LayerCo
         const Station* before = k > 0 ? &stations[stretch.places[k - 1]] : nullptr;
         Station& b = stations[stretch.places[k]];
         const auto kind = [&](const Station& now) {
-            if (in_wake) return IntervalKind::wake;
-            if (!before) return IntervalKind::first;
-            if (!laminar) return IntervalKind::turbulent;
-            const bool ends = k == last || *stretch.trip <= now.x ||
-                              grown_exponent(*before, now, conditions) >= conditions.critical_exponent;
-            return ends ? IntervalKind::transition : IntervalKind::laminar;
+            return kind_after({before, laminar, k == last}, now, stretch.trip, conditions);
         };
         const SpeedLaw answer = law(stretch.places[k]);
         if (prescribed) begin_from(before, answer.speed, !laminar, b);
