@@ -152,7 +152,9 @@ TEST(Morph, VerticesSlideAlongGround) {
         const Point before = mesh.points[edge.a.index()], after = result.points[edge.a.index()];
         EXPECT_EQ(after.y, before.y);
         farthest = std::max(farthest, after.x - before.x);
-        if (std::abs(before.x) > 9) EXPECT_NEAR(after.x, before.x, 0.02);
+        if (std::abs(before.x) > 9) {
+            EXPECT_NEAR(after.x, before.x, 0.02);
+        }
     }
     EXPECT_GT(farthest, 0.08);
 }
