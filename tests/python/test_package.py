@@ -23,8 +23,8 @@ def test_options_are_those_of_the_program(repository):
     page = (repository / "docs/options.md").read_text()
     of_program = {line.split("`")[1].lstrip("-").split()[0].replace("-", "_") for line in page.splitlines()
                   if line.startswith("| `--")}
-    of_run = {"format", "order", "parts", "span", "span_cells", "span_ends", "wall_distance", "wall_data", "report", "html",
-              "stream", "progress", "quiet", "strict"}
+    of_run = {"format", "parts", "span", "span_cells", "span_ends", "wall_distance", "wall_data", "report", "html", "stream",
+              "progress", "quiet", "strict"}
     assert set(_options.option_rows()) == of_program - of_run
 
 
