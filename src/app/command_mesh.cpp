@@ -1,5 +1,6 @@
 // lamina mesh: makes a mesh round airfoils and writes it.
 #include <memory>
+#include <string>
 
 #include "app/arguments.hpp"
 #include "app/case_file.hpp"
@@ -18,7 +19,7 @@ void add_mesh_command(CLI::App& app, Ranks* ranks) {
     command->footer(format_help());
     auto dump = std::make_shared<bool>(false);
     command->add_flag("--dump-config", *dump, "print the options in force as a case file, and do nothing else")
-        ->group("Run");
+        ->group("Run" + std::string(further_options));
     auto dry_run = std::make_shared<bool>(false);
     command
         ->add_flag("--dry-run", *dry_run,
