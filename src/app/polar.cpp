@@ -38,12 +38,14 @@ double transition_on(const std::vector<FlowPoint>& side, const Box& box) {
 bool is_attached(const Flow& flow, bool bubbles_count) {
     for (const ElementFlow& element : flow.elements)
         for (const auto* side : {&element.upper, &element.lower}) {
-            bool separated = false;
-            for (const FlowPoint& p : *side) {
-                if (p.s >= attached_share * side->back().s) break;
-                separated = p.state == BoundaryLayerState::separated || (bubbles_count && separated);
-            }
-            if (separated) return false;
+            std::optional<double> separated_from;  // for good, or at all
+            for (const FlowPoint& p : *side)
+                if (p.state != BoundaryLayerState::separated) {
+                    if (!bubbles_count) separated_from.reset();
+                } else if (!separated_from) {
+                    separated_from = p.s;
+                }
+            if (separated_from && *separated_from < attached_share * side->back().s) return false;
         }
     return true;
 }

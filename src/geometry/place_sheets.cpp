@@ -62,12 +62,12 @@ Foot foot_on(const Geometry& bodies, std::size_t element, std::size_t edge, Poin
 
 /// Returns the place on a wall that an end of a sheet of this length stands on, as far as coordinates are typed.
 std::optional<Foot> foot_near(const Geometry& bodies, Point end, double length, double rounding) {
-    constexpr double reach = 1e-3, most = 0.05;  // of the body, and of the sheet
+    constexpr double most = 0.05;  // of the sheet
     std::optional<Foot> foot;
     double nearest = most * length;
     for (std::size_t e = 0; e < bodies.elements.size(); ++e) {
         const std::vector<Point>& p = bodies.elements[e].points;
-        const double own = reach * core::longer_side(core::bounding_box(p));
+        const double own = typed_rounding * core::longer_side(core::bounding_box(p));
         for (std::size_t i = 0; i < p.size(); ++i) {
             const double d = core::distance_to_segment(end, p[i], p[(i + 1) % p.size()]);
             if (!(d < own && d < nearest)) continue;

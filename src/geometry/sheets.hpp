@@ -19,6 +19,10 @@
 
 namespace lamina::geometry {
 
+/// Coordinates are typed with few digits: ends of sheets and lines stand on what is nearer than this share of its length, of
+/// the body for sheets, and of the end's edge for lines at borders of the domain.
+inline constexpr double typed_rounding = 1e-3;
+
 /// Returns the sheet that a text NAME:PLACE of the option means, and its text.
 Sheet parse_sheet(const std::string& text);
 std::string sheet_text(const Sheet& sheet);

@@ -233,7 +233,6 @@ void straighten_borders(const Strip& strip, Arrangement& result) {
 }
 
 Arrangement arrange(std::span<const InternalLine> lines, const Strip& strip, const Geometry& geometry) {
-    constexpr double reach = 1e-3;  // of the end's edge: coordinates typed with few digits
     Arrangement result;
     result.walls = wall_edges(geometry);
     std::vector<Segment> segments;
@@ -247,8 +246,8 @@ Arrangement arrange(std::span<const InternalLine> lines, const Strip& strip, con
         std::vector<Point> points = lines[k].points;
         if (points.front() != points.back()) {
             const std::array before{distance(points[0], points[1]), distance(points.end()[-1], points.end()[-2])};
-            points.front().y = strip.snapped(points.front().y, reach * before[0]);
-            points.back().y = strip.snapped(points.back().y, reach * before[1]);
+            points.front().y = strip.snapped(points.front().y, geometry::typed_rounding * before[0]);
+            points.back().y = strip.snapped(points.back().y, geometry::typed_rounding * before[1]);
             for (Point* end : {&points.front(), &points.back()}) *end = attached(*end, geometry, result.walls);
         }
         result.points.insert(result.points.end(), points.begin(), points.end());
