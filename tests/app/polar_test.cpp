@@ -104,6 +104,17 @@ TEST(PolarCommand, BendsBeyondStall) {
     EXPECT_LT(polar["rows"][2]["CL"], polar["rows"][1]["CL"]);
 }
 
+/// The bubble on the lower side is open at 95 % of it, and closes ahead of the trailing edge.
+TEST(FlowPolar, BubblesThatCloseAheadOfTheTrailingEdgeAreAttached) {
+    const ProgramRun run =
+        run_lamina(TemporaryFolder(), {"flow", "naca:0012", "--alpha", "4:8:4", "--reynolds", "1e6"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const std::vector<std::string> lines = lines_of(run.out);
+    ASSERT_GE(lines.size(), 4u) << run.out;
+    EXPECT_TRUE(lines[2].ends_with("attached")) << lines[2];
+    EXPECT_TRUE(lines[3].ends_with("separated")) << lines[3];
+}
+
 TEST(FlowPolar, TripsAndWavesMakeLayersTurbulent) {
     const TemporaryFolder folder;
     const ProgramRun run = run_lamina(folder, {"flow", "naca:0012", "--alpha", "0:2:2", "--reynolds", "1e6", "--trip",
