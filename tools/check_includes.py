@@ -37,8 +37,8 @@ PROGRAM_HEADERS = {"core/option_builders.hpp", "core/suggestion.hpp"}
 
 # The folder that owns each public header; a header that is not listed belongs to the folder of its name.
 OWNERS = {name: "core" for name in ("angle_bounds", "conditions", "error", "export", "files", "ids", "interruption",
-                                    "length", "limits", "marker_names", "option", "point", "predicates", "ranks", "threads",
-                                    "value_range", "version", "warning")}
+                                    "latin_hypercube", "length", "limits", "marker_names", "option", "point", "predicates",
+                                    "ranks", "threads", "value_range", "version", "warning")}
 OWNERS["transformation"] = "geometry"
 OWNERS["compressible_flow"] = OWNERS["coupled_flow"] = "flow"
 OWNERS["solution"] = "io"

@@ -1,12 +1,10 @@
 // lamina batch: makes the meshes of many inputs, and of many values of options.
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <filesystem>
 #include <memory>
 #include <set>
 #include <string>
-#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -15,10 +13,9 @@
 
 #include <lamina/error.hpp>
 #include <lamina/files.hpp>
-#include <lamina/former_options.hpp>
 #include <lamina/io.hpp>
-#include <lamina/value_range.hpp>
 
+#include "app/batch_conditions.hpp"
 #include "app/batch_run.hpp"
 #include "app/commands.hpp"
 #include "app/format_help.hpp"
@@ -27,7 +24,6 @@
 #include "app/options.hpp"
 #include "app/run_files.hpp"
 #include "app/standard_output.hpp"
-#include "core/suggestion.hpp"
 
 namespace lamina::app {
 
@@ -35,69 +31,9 @@ namespace {
 
 struct BatchArguments {
     unsigned jobs = 0;
-    std::vector<std::string> sweeps;
+    ConditionArguments conditions;
     std::string shard, summary, template_mesh;
 };
-
-/// An option with the values that a batch gives it.
-struct Sweep {
-    const Option<MeshCase>* option;
-    std::vector<std::string> values;
-};
-
-/// Returns whether the option takes numbers, so that a colon between some means a range.
-bool takes_numbers(const Option<MeshCase>& option) {
-    constexpr std::array kinds{OptionKind::number, OptionKind::number_or_range, OptionKind::length, OptionKind::count,
-                               OptionKind::count_or_auto};
-    return std::find(kinds.begin(), kinds.end(), option.kind) != kinds.end();
-}
-
-/// Returns the values between commas, those of each range one by one.
-std::vector<std::string> values_in(std::string_view text, const Option<MeshCase>& option) {
-    std::vector<std::string> values;
-    for (;;) {
-        const std::size_t comma = std::min(text.find(','), text.size());
-        const std::string value(text.substr(0, comma));
-        if (takes_numbers(option) && is_range(value)) {
-            for (const double number : values_of(parse_range(value))) values.push_back(to_text(OptionValue(number)));
-        } else {
-            values.push_back(value);
-        }
-        if (comma == text.size()) return values;
-        text.remove_prefix(comma + 1);
-    }
-}
-
-/// Reads "reynolds=1e5,1e6".
-Sweep parse_sweep(const std::string& text) {
-    const std::size_t equals = text.find('=');
-    if (equals == std::string::npos || equals + 1 == text.size())
-        throw UsageError(fmt::format("option --sweep: '{}' is not OPTION=VALUE,VALUE,...", text));
-    std::vector<std::string> names;
-    for (const Option<MeshCase>& option : mesh_options()) {
-        if (option.name == "input" || option.name == "output") continue;
-        names.push_back(option.name);
-        if (option.key() != option_key(text.substr(0, equals))) continue;
-        try {
-            return {&option, values_in(std::string_view(text).substr(equals + 1), option)};
-        } catch (const UsageError& error) {
-            throw UsageError(fmt::format("option --sweep: {}: {}", option.name, error.what()));
-        }
-    }
-    const std::string name = text.substr(0, equals);
-    const FormerOption* former = find_former_option(name);
-    throw UsageError(
-        fmt::format("option --sweep: there is no option '{}'{}", name,
-                    former ? ": " + advice_on_command_line(*former) : did_you_mean(closest_word(name, names))));
-}
-
-/// Adds an option that is swept, over the value that it may have besides. Throws UsageError where it is swept already.
-void add_sweep(Sweep sweep, std::vector<Sweep>& sweeps) {
-    for (const Sweep& earlier : sweeps)
-        if (earlier.option == sweep.option)
-            throw UsageError(fmt::format("option --sweep: '{}' is swept twice", sweep.option->name));
-    sweeps.push_back(std::move(sweep));
-}
 
 /// The part of the jobs that this run makes: every `of`-th one, from `number` on, which counts from 1.
 struct Shard {
@@ -146,24 +82,15 @@ std::string filled_in(std::string text, const BatchJob& job) {
     return text;
 }
 
-/// Returns the jobs of one input: all combinations of the values that are swept, the last option fastest.
-std::vector<BatchJob> jobs_of(const GivenOptions& options, const std::string& input, const std::vector<Sweep>& sweeps) {
+/// Returns the jobs of one input, one for each of the conditions.
+std::vector<BatchJob> jobs_of(const GivenOptions& options, const std::string& input,
+                              const std::vector<BatchCondition>& conditions) {
     std::vector<BatchJob> jobs;
-    std::size_t combinations = 1;
-    for (const Sweep& sweep : sweeps) combinations *= sweep.values.size();
-    for (std::size_t i = 0; i < combinations; ++i) {
+    for (const BatchCondition& condition : conditions) {
         BatchJob job;
         job.name = name_of(input);
-        std::vector<OptionText> further;
-        std::size_t rest = combinations, index = i;
-        for (const Sweep& sweep : sweeps) {
-            rest /= sweep.values.size();
-            const std::string& value = sweep.values[index / rest];
-            index %= rest;
-            further.emplace_back(sweep.option, value);
-            job.swept.emplace_back(sweep.option->key(), value);
-        }
-        job.mesh_case = case_of_command_line(options, {input}, further);
+        for (const auto& [option, value] : condition) job.swept.emplace_back(option->key(), value);
+        job.mesh_case = case_of_command_line(options, {input}, condition);
         for (std::string& output : job.mesh_case.outputs) output = filled_in(output, job);
         for (const auto& [file, option] : files_beside_mesh) job.mesh_case.*file = filled_in(job.mesh_case.*file, job);
         prefer_quads_for_openfoam(job.mesh_case);
@@ -258,15 +185,14 @@ std::string summary_stem(const BatchArguments& arguments, const std::string& out
 
 void batch(const GivenOptions& options, const BatchArguments& arguments) {
     const Shard shard = parse_shard(arguments.shard);
-    std::vector<Sweep> sweeps;
-    for (const std::string& text : arguments.sweeps) add_sweep(parse_sweep(text), sweeps);
+    const std::vector<BatchCondition> conditions = conditions_of_batch(arguments.conditions);
     std::vector<BatchJob> all;
     std::string first_output;
     for (const auto& [option, given] : options) {
         if (option->name == "output" && given->count() > 0) first_output = given->results().front();
         if (!given->get_positional()) continue;
         for (const std::string& input : given->results())
-            for (BatchJob& job : jobs_of(options, input, sweeps)) all.push_back(std::move(job));
+            for (BatchJob& job : jobs_of(options, input, conditions)) all.push_back(std::move(job));
     }
     if (all.empty()) throw UsageError("no INPUT: give airfoil files, naca:DIGITS or case files");
     for (const BatchJob& job : all)
@@ -312,11 +238,32 @@ void add_batch_command(CLI::App& app) {
         ->group("Batch");
     command
         ->add_option(
-            "--sweep", arguments->sweeps,
+            "--sweep", arguments->conditions.sweeps,
             "values of an option to combine, as in reynolds=1e5,1e6, or ranges of them, as in alpha=-4:18:2; may be "
             "given several times, for all combinations")
         ->type_name("OPTION=A,B:C:STEP,...")
         ->allow_extra_args(false)
+        ->group("Batch");
+    CLI::Option* intervals =
+        command
+            ->add_option("--sample", arguments->conditions.samples,
+                         "interval of an option to take samples from, evenly or, with :log, by the logarithm; with "
+                         "several of them, together a Latin hypercube")
+            ->type_name("OPTION=A:B[:log]")
+            ->allow_extra_args(false)
+            ->group("Batch");
+    CLI::Option* number = command
+                              ->add_option("--samples", arguments->conditions.number_of_samples,
+                                           "number of samples of these intervals, for each combination of --sweep")
+                              ->type_name("N")
+                              ->check(CLI::Range(1, 100000))
+                              ->needs(intervals)
+                              ->group("Batch");
+    intervals->needs(number);
+    command->add_option("--seed", arguments->conditions.seed, "other samples, as good as those of any other seed")
+        ->type_name("N")
+        ->capture_default_str()
+        ->needs(intervals)
         ->group("Batch");
     command->add_option("--shard", arguments->shard, "make the I-th of N parts of the meshes alone, for N machines")
         ->type_name("I/N")

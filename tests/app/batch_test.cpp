@@ -2,10 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -205,6 +208,53 @@ TEST(Batch, SweepsAndShards) {
     }
     ASSERT_EQ(of_shards.size(), all.size());
     for (const auto& [job, record] : all) EXPECT_EQ(of_shards[job]["hash"], record["hash"]);
+}
+
+TEST(Batch, TakesSamplesOfIntervals) {
+    const TemporaryFolder folder;
+    const std::vector<std::string> arguments{"naca:0012",
+                                             "-o",
+                                             "{name}_{alpha}_{reynolds}_{growth}.vtu",
+                                             "--sweep",
+                                             "growth=1.2,1.3",
+                                             "--sample",
+                                             "alpha=-4:8",
+                                             "--sample",
+                                             "reynolds=1e5:1e7:log",
+                                             "--samples",
+                                             "4",
+                                             "--far-field",
+                                             "5"};
+    ASSERT_EQ(run_batch(folder, arguments).exit_code, 0);
+    const auto made = journal(folder, "summary.jsonl");
+    EXPECT_EQ(made.size(), 8u);
+    // Each quarter of each interval holds a sample, and both ratios have the same ones.
+    std::map<std::string, std::set<int>> quarters;
+    for (const auto& [job, record] : made) {
+        const auto& swept = record["sweep"];
+        const double alpha = std::stod(swept["alpha"].get<std::string>());
+        const double reynolds = std::stod(swept["reynolds"].get<std::string>());
+        const std::string growth = swept["growth"];
+        quarters["alpha " + growth].insert(static_cast<int>(std::floor((alpha + 4) / 3)));
+        quarters["reynolds " + growth].insert(static_cast<int>(std::floor((std::log10(reynolds) - 5) * 2)));
+    }
+    ASSERT_EQ(quarters.size(), 4u);
+    for (const auto& [name, held] : quarters) EXPECT_EQ(held, (std::set<int>{0, 1, 2, 3})) << name;
+
+    const std::vector<std::pair<std::vector<std::string>, std::string>> refused{
+        {{"--sample", "alpha=4:-4", "--samples", "3"}, "alpha: '4:-4': is no interval: A must be below B"},
+        {{"--sample", "alpha=1", "--samples", "3"}, "'1': is no interval A:B"},
+        {{"--sample", "alpha=-1:1:log", "--samples", "3"}, "A must be above 0"},
+        {{"--sample", "alhpa=1:2", "--samples", "3"}, "did you mean 'alpha'"},
+        {{"--sample", "layer-topology=1:2", "--samples", "3"}, "only numbers have intervals"},
+        {{"--sample", "alpha=1:2", "--samples", "3", "--sweep", "alpha=1,2"}, "'alpha' has values already"},
+        {{"--sample", "alpha=1:2"}, "--samples"}};
+    for (const auto& [further, message] : refused) {
+        std::vector<std::string> all{"batch", "naca:0012", "-o", "{alpha}.su2"};
+        all.insert(all.end(), further.begin(), further.end());
+        const TemporaryFolder empty;
+        expect_refused(empty, all, usage, message);
+    }
 }
 
 TEST(Batch, GoesOnAfterAnInterruption) {
