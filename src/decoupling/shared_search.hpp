@@ -1,5 +1,5 @@
 // The search for separators, divided among processes: each searches some of the subdomains and tells all others where it
-// has found a separator (docs/decisions/0047).
+// has found a separator (docs/decisions/0045).
 #pragma once
 
 #include <cstddef>

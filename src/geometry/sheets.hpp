@@ -6,7 +6,7 @@
 //                                                              begin  ||  end
 //                                                                    tip
 //
-// Source: docs/decisions/0084.
+// Source: docs/decisions/0081.
 #pragma once
 
 #include <cstddef>

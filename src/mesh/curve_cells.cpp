@@ -428,7 +428,7 @@ std::uint32_t CellColumnNumbers::of(const MeshView& mesh, std::size_t cell) cons
 
 CurvedCells curve_cells(const MeshView& mesh, unsigned order, std::span<const WallCurve> walls,
                         const CellColumnNumbers& numbers_of_columns) {
-    constexpr int max_halvings_of_bend = 6;  // docs/decisions/0086
+    constexpr int max_halvings_of_bend = 6;  // docs/decisions/0012
     const Adjacency adjacency = find_adjacency(mesh);
     std::vector<BentColumn> columns = bent_columns(mesh, adjacency, order, walls, numbers_of_columns);
     const NodeNumbers numbers(mesh, adjacency, order);

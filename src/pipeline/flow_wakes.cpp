@@ -1,4 +1,4 @@
-// Sources of the size field along the wakes (docs/decisions/0037).
+// Sources of the size field along the wakes (docs/decisions/0036).
 #include <algorithm>
 #include <cmath>
 #include <functional>

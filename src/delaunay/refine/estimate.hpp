@@ -1,4 +1,4 @@
-// Estimates of the number of triangles that refinement will make, before it runs (docs/decisions/0015).
+// Estimates of the number of triangles that refinement will make, before it runs (docs/decisions/0013).
 #pragma once
 
 #include <cstddef>

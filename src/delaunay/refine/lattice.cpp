@@ -31,7 +31,7 @@ constexpr double seam_margin = 0.75;
 constexpr double min_smooth_share = 0.4;
 
 /// Rounding leaves 1e-16 of an edge where a coordinate of a lattice should vanish. Lattices of smaller sizes would have
-/// coordinates below the range of exact arithmetic (docs/decisions/0005).
+/// coordinates below the range of exact arithmetic (docs/decisions/0001).
 constexpr double min_lattice_size = 1e-40;
 
 /// A part of the region's box, the sizes in it, and the levels that serve them.

@@ -39,7 +39,7 @@ namespace lamina::delaunay {
 
 /// Returns the power of two that brings an extent of this length near 1; 1 for the lengths that need no scaling. The
 /// refiner multiplies coordinates by it, which is exact, so that squares and cubes of areas neither overflow nor vanish
-/// wherever the coordinates lie in their range (docs/decisions/0005).
+/// wherever the coordinates lie in their range (docs/decisions/0001).
 double unit_scale(double extent);
 
 /// Refines a triangulation whose borders are constrained edges or edges without a neighbour. The derived class knows

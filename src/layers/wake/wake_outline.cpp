@@ -10,7 +10,7 @@
 //
 // The wake is no wall: its vertices are inner vertices of the layer, one for both sides. Behind a blunt base the sides
 // run straight from both corners to a point on the line of the wake, and a core fills the space between them
-// (docs/decisions/0037).
+// (docs/decisions/0036).
 #include "layers/wake/wake_outline.hpp"
 #include "geometry/sharp_corner.hpp"
 

@@ -1,4 +1,4 @@
-// The pieces of a mesh that several processes make together (docs/decisions/0047).
+// The pieces of a mesh that several processes make together (docs/decisions/0045).
 #pragma once
 
 #include <cstddef>
