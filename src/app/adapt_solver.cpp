@@ -43,6 +43,22 @@ void require_finite(const SolvedForces& forces, const fs::path& file) {
         throw IoError(file.string(), "the solution has diverged: forces are not finite numbers");
 }
 
+/// Returns a number of a report; nothing where there is none of this name.
+std::optional<double> number_of(const Json& report, const char* key) {
+    if (!report.is_object() || !report.contains(key) || !report[key].is_number()) return {};
+    return report[key].get<double>();
+}
+
+/// Returns the largest of the y+ of the walls in a report; nothing where there is none.
+std::optional<double> largest_y_plus(const Json& report) {
+    std::optional<double> largest;
+    if (!report.is_object() || !report.contains("y_plus")) return largest;
+    for (const Json& wall : report["y_plus"])
+        if (const std::optional<double> of_wall = number_of(wall, "largest"))
+            largest = std::max(largest.value_or(*of_wall), *of_wall);
+    return largest;
+}
+
 /// Returns a number as a count; nothing where it is none.
 std::optional<std::size_t> count_of(const std::optional<double>& number) {
     constexpr double most = 1e15;  // whole numbers up to here have one double each
@@ -136,15 +152,13 @@ public:
         const fs::path file = folder / "result.json";
         const Json result = Json::parse(read_file(file), nullptr, false);
         SolvedForces forces;
-        const auto number = [&](const char* key) -> std::optional<double> {
-            if (!result.is_object() || !result.contains(key) || !result[key].is_number()) return {};
-            return result[key].get<double>();
-        };
-        forces.cl = number("CL").value_or(NAN);
-        forces.cd = number("CD").value_or(NAN);
+        forces.cl = number_of(result, "CL").value_or(NAN);
+        forces.cd = number_of(result, "CD").value_or(NAN);
+        forces.cm = number_of(result, "CM");
+        forces.y_plus = largest_y_plus(result);
         require_finite(forces, file);
         forces.steady = code == 0;
-        forces.iterations = count_of(number("iterations"));
+        forces.iterations = count_of(number_of(result, "iterations"));
         forces.residual = residual(folder);
         if (options_.adjoint) find_adjoint(folder, guard);
         return forces;
@@ -221,6 +235,8 @@ public:
         SolvedForces forces;
         forces.cl = table.last_number("CL").value_or(NAN);
         forces.cd = table.last_number("CD").value_or(NAN);
+        forces.cm = table.last_number("CM");
+        forces.y_plus = table.last_number("y_plus");
         require_finite(forces, file);
         const std::string steady = table.last("steady");
         forces.steady = steady != "0" && steady != "false" && steady != "no";

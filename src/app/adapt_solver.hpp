@@ -21,6 +21,7 @@ namespace lamina::app {
 struct SolvedForces {
     double cl = 0, cd = 0;
     bool steady = true;
+    std::optional<double> cm, y_plus;  ///< moment about the quarter chord, nose up; largest y+; where the solver says
     std::optional<std::size_t> iterations;  ///< empty: the solver does not say
     std::optional<double> residual;         ///< the logarithm to base 10 of the last residual of density (SU2) or
                                             ///< pressure (OpenFOAM)

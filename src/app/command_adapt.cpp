@@ -101,7 +101,7 @@ void add_solver_and_folder(CLI::App& command, AdaptArguments& arguments) {
                     "folder of the round, without a shell, where mesh.vtu, mesh.su2, case.toml and, from round 1 on, "
                     "start.vtu are, and leaves solution.vtu or solution.cgns, and forces.csv with the columns CL, CD "
                     "and steady (and "
-                    "iterations, residual); {case} stands for the folder")
+                    "CM, y_plus, iterations, residual); {case} stands for the folder")
         ->required()
         ->type_name("openfoam|su2|COMMAND")
         ->group(group_of_adapt);

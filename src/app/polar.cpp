@@ -1,6 +1,5 @@
 #include "app/polar.hpp"
 
-#include <algorithm>
 #include <filesystem>
 #include <utility>
 
@@ -38,14 +37,14 @@ double transition_on(const std::vector<FlowPoint>& side, const Box& box) {
 bool is_attached(const Flow& flow, bool bubbles_count) {
     for (const ElementFlow& element : flow.elements)
         for (const auto* side : {&element.upper, &element.lower}) {
-            std::optional<double> separated_from;  // for good, or at all
+            const FlowPoint* separation = nullptr;  // for good, or at all
             for (const FlowPoint& p : *side)
                 if (p.state != BoundaryLayerState::separated) {
-                    if (!bubbles_count) separated_from.reset();
-                } else if (!separated_from) {
-                    separated_from = p.s;
+                    if (!bubbles_count) separation = nullptr;
+                } else if (separation == nullptr) {
+                    separation = &p;
                 }
-            if (separated_from && *separated_from < attached_share * side->back().s) return false;
+            if (separation != nullptr && separation->s < attached_share * side->back().s) return false;
         }
     return true;
 }
@@ -144,20 +143,24 @@ std::string polar_summary(const PolarConditions& conditions, std::span<const Pol
     std::string text = "polar of " + conditions.name;
     if (conditions.reynolds) text += fmt::format(", Reynolds number {:.4g}", *conditions.reynolds);
     if (conditions.mach) text += fmt::format(", Mach {:.4g}", *conditions.mach);
-    text += "\n   alpha       CL        CD       CDp       CM  Top_Xtr  Bot_Xtr  state\n";
+    text += "\n   alpha       CL        CD       CDp       CM  Top_Xtr  Bot_Xtr";
+    const bool has_y_plus = std::any_of(rows.begin(), rows.end(), [](const PolarRow& row) { return row.y_plus; });
+    text += has_y_plus ? "       y+  state\n" : "  state\n";
     for (const PolarRow& row : rows)
-        text += fmt::format("{:8.3f} {} {} {} {} {} {}  {}\n", row.alpha_deg, column(row.cl, 8, 4),
-                            column(row.cd, 9, 5), column(row.cdp, 9, 5), column(row.cm, 8, 4),
-                            column(row.top_xtr, 8, 4), column(row.bottom_xtr, 8, 4), row.state);
+        text +=
+            fmt::format("{:8.3f} {} {} {} {} {} {}{}  {}\n", row.alpha_deg, column(row.cl, 8, 4), column(row.cd, 9, 5),
+                        column(row.cdp, 9, 5), column(row.cm, 8, 4), column(row.top_xtr, 8, 4),
+                        column(row.bottom_xtr, 8, 4), has_y_plus ? " " + column(row.y_plus, 8, 3) : "", row.state);
     return text;
 }
 
 std::string polar_csv(std::span<const PolarRow> rows) {
-    std::string text = "alpha,CL,CD,CDp,CM,top_xtr,bottom_xtr,state,steady\n";
+    std::string text = "alpha,CL,CD,CDp,CM,top_xtr,bottom_xtr,y_plus,state,steady\n";
     for (const PolarRow& row : rows)
-        text += fmt::format("{},{},{},{},{},{},{},{},{}\n", row.alpha_deg, optional_text(row.cl), optional_text(row.cd),
-                            optional_text(row.cdp), optional_text(row.cm), optional_text(row.top_xtr),
-                            optional_text(row.bottom_xtr), row.state, row.steady ? "yes" : "no");
+        text +=
+            fmt::format("{},{},{},{},{},{},{},{},{},{}\n", row.alpha_deg, optional_text(row.cl), optional_text(row.cd),
+                        optional_text(row.cdp), optional_text(row.cm), optional_text(row.top_xtr),
+                        optional_text(row.bottom_xtr), optional_text(row.y_plus), row.state, row.steady ? "yes" : "no");
     return text;
 }
 
@@ -171,6 +174,7 @@ Json polar_json(const PolarConditions& conditions, std::span<const PolarRow> row
                         {"CM", json_number(row.cm)},
                         {"top_xtr", json_number(row.top_xtr)},
                         {"bottom_xtr", json_number(row.bottom_xtr)},
+                        {"y_plus", json_number(row.y_plus)},
                         {"state", row.state},
                         {"steady", row.steady},
                         {"note", row.note}});

@@ -22,8 +22,9 @@ struct PolarRow {
     bool steady = true;  ///< whether the state is one of a steady flow that the method is for
     std::optional<double> cl{}, cd{}, cdp{}, cm{};
     std::optional<double> top_xtr{},
-        bottom_xtr{};    ///< transition on the longest element, as a share of its extent in x
-    std::string note{};  ///< more about the state
+        bottom_xtr{};                ///< transition on the longest element, as a share of its extent in x
+    std::optional<double> y_plus{};  ///< the largest, on the mesh of the solver
+    std::string note{};              ///< more about the state
 };
 
 /// What all rows of a polar have in common.

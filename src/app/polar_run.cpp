@@ -32,7 +32,7 @@ namespace {
 constexpr const char* row_file = "row.json";
 constexpr const char* folder_prefix = "alpha_";
 constexpr const char* part_prefix = "alpha.part-";
-/// Solvers find no part of the drag, no moment and no transition, which the format of XFOIL has.
+/// Solvers find no part of the drag and no transition, which the format of XFOIL has.
 constexpr const char* files_of_solver[] = {"polar.csv", "polar.json"};
 constexpr const char* files_of_flow[] = {"polar.csv", "polar.json", "polar.txt"};
 
@@ -47,7 +47,11 @@ struct SolvedAngle {
 };
 
 Json json_of(const SolvedAngle& angle, const std::string& digits) {
-    return {{"fingerprint", digits}, {"CL", angle.forces.cl}, {"CD", angle.forces.cd}, {"steady", angle.forces.steady}};
+    const SolvedForces& forces = angle.forces;
+    Json json{{"fingerprint", digits}, {"CL", forces.cl}, {"CD", forces.cd}, {"steady", forces.steady}};
+    if (forces.cm) json["CM"] = *forces.cm;
+    if (forces.y_plus) json["y_plus"] = *forces.y_plus;
+    return json;
 }
 
 SolvedAngle solved_angle(double alpha_deg, const SolvedForces& forces) {
@@ -55,6 +59,8 @@ SolvedAngle solved_angle(double alpha_deg, const SolvedForces& forces) {
     row.steady = forces.steady;
     row.cl = forces.cl;
     row.cd = forces.cd;
+    row.cm = forces.cm;
+    row.y_plus = forces.y_plus;
     return {row, forces};
 }
 
@@ -106,6 +112,8 @@ private:
                     forces.cl = json.at("CL");
                     forces.cd = json.at("CD");
                     forces.steady = json.at("steady");
+                    if (json.contains("CM")) forces.cm = json.at("CM");
+                    if (json.contains("y_plus")) forces.y_plus = json.at("y_plus");
                 });
             before.push_back(exists ? std::optional(solved_angle(alpha, forces)) : std::nullopt);
         }

@@ -139,7 +139,7 @@ TEST(PolarCommand, DragWithoutLayersIsNoDrag) {
     ASSERT_EQ(run.exit_code, 0) << run.err;
     const std::vector<std::string> rows = lines_of(folder.read("out/polar.csv"));
     ASSERT_EQ(rows.size(), 2u);
-    EXPECT_NE(rows[1].find(",,,,,,inviscid,yes"), std::string::npos) << rows[1];
+    EXPECT_NE(rows[1].find(",,,,,,,inviscid,yes"), std::string::npos) << rows[1];
     EXPECT_EQ(lines_of(folder.read("out/polar.txt")).size(), 12u);
 }
 
@@ -150,7 +150,7 @@ TEST(PolarCommand, RunsASolverAtEachAngleAndGoesOnWhereItWas) {
                              " mesh.su2 solution.vtu || exit 9\nalpha=$(sed -n 's/^alpha = //p' case.toml)\n"
                              "steady=yes\n[ \"$alpha\" = 2.0 ] && steady=no\n[ \"$alpha\" = 2 ] && steady=no\n"
                              "[ -f start.vtu ] && echo start >>\"$1/../../starts\"\n"
-                             "printf 'CL,CD,steady\\n%s,0.01,%s\\n' $alpha $steady >forces.csv\n");
+                             "printf 'CL,CD,CM,y_plus,steady\\n%s,0.01,-0.02,0.7,%s\\n' $alpha $steady >forces.csv\n");
     const std::vector<std::string> arguments{
         "polar",       "naca:0012", "--alpha", "0:6:2", "--solver", "sh ../../solve.sh {case}",
         "--far-field", "10",        "-o",      "out"};
@@ -161,9 +161,9 @@ TEST(PolarCommand, RunsASolverAtEachAngleAndGoesOnWhereItWas) {
     EXPECT_EQ(lines_of(folder.read("starts")).size(), 3u);
     const std::vector<std::string> rows = lines_of(folder.read("out/polar.csv"));
     ASSERT_EQ(rows.size(), 5u);
-    EXPECT_EQ(rows[1], "0,0,0.01,,,,,steady,yes");
-    EXPECT_EQ(rows[2], "2,2,0.01,,,,,not steady,no");
-    EXPECT_EQ(rows[4], "6,6,0.01,,,,,steady,yes");
+    EXPECT_EQ(rows[1], "0,0,0.01,,-0.02,,,0.7,steady,yes");
+    EXPECT_EQ(rows[2], "2,2,0.01,,-0.02,,,0.7,not steady,no");
+    EXPECT_EQ(rows[4], "6,6,0.01,,-0.02,,,0.7,steady,yes");
     // What is there is kept; an angle that was removed is solved again.
     fs::remove_all(folder / "out/alpha_6");
     EXPECT_EQ(run_lamina(folder, arguments).exit_code, mesh_failed);
