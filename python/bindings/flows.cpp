@@ -11,6 +11,7 @@
 #include <nanobind/stl/vector.h>
 
 #include "app/flow_run.hpp"
+#include "app/polar.hpp"
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "facts.hpp"
@@ -109,12 +110,30 @@ nb::dict flow_facts(CompressibleFlow flow) {
 
 using OptionValues = std::vector<std::pair<std::string, OptionValue>>;
 
+/// Returns the options of a flow by the names of rows of the table of TransitionOptions.
+TransitionOptions transition_of(const OptionValues& values) {
+    TransitionOptions transition;
+    for (const auto& [name, value] : values) find_row(option_table<TransitionOptions>(), name).set(transition, value);
+    return transition;
+}
+
+/// Returns the polar of `lamina flow`, as the text of polar.json.
+std::string find_polar(const nb::list& given, const OptionValues& values, const OptionValues& of_transition) {
+    const CaseOptions options = make_request(values).options;
+    const TransitionOptions transition = transition_of(of_transition);
+    const std::vector<Section> sections = sections_of(given);
+    std::string text;
+    run_unlocked([&] {
+        const app::FlowPolar polar = app::flow_polar(geometry_of(sections, options.geometry), options, transition);
+        text = app::polar_text("polar.json", polar.conditions, polar.rows);
+    });
+    return text;
+}
+
 /// Returns the flow that `lamina flow` finds, with the options of meshes, and those of TransitionOptions by their names.
 nb::dict find_flow(const nb::list& given, const OptionValues& values, const OptionValues& of_transition) {
     const CaseOptions options = make_request(values).options;
-    TransitionOptions transition;
-    for (const auto& [name, value] : of_transition)
-        find_row(option_table<TransitionOptions>(), name).set(transition, value);
+    const TransitionOptions transition = transition_of(of_transition);
     const std::vector<Section> sections = sections_of(given);
     app::FoundFlow found;
     run_unlocked([&] { found = app::find_flow(geometry_of(sections, options.geometry), options, transition); });
@@ -138,6 +157,9 @@ nb::dict find_flow(const nb::list& given, const OptionValues& values, const Opti
 
 }  // namespace
 
-void add_flows(nb::module_& module) { module.def("flow", &find_flow); }
+void add_flows(nb::module_& module) {
+    module.def("flow", &find_flow);
+    module.def("polar", &find_polar);
+}
 
 }  // namespace lamina::python

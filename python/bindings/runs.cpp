@@ -16,6 +16,7 @@
 #include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
+#include <lamina/forecast.hpp>
 #include <lamina/pipeline.hpp>
 #include <lamina/solver_case.hpp>
 #include <lamina/warning.hpp>
@@ -28,6 +29,7 @@
 #include "request.hpp"
 #include "sections.hpp"
 #include "shared_mesh.hpp"
+#include "values.hpp"
 
 namespace lamina::python {
 
@@ -102,6 +104,33 @@ nb::tuple generate(const nb::list& given_sections, const OptionValues& values, c
     return to_python(std::move(result));
 }
 
+/// Returns what generate() would make, by estimate: as `forecast_mesh()` does.
+nb::dict forecast(const nb::list& given_sections, const OptionValues& values, const std::optional<Background>& sizes) {
+    const MeshRequest request = request_of(values, sizes);
+    const std::vector<Section> sections = sections_of(given_sections);
+    MeshForecast found;
+    run_unlocked([&] { found = forecast_mesh(geometry_of(sections, request.options.geometry), request.options); });
+    nb::list walls;
+    for (const WallForecast& wall : found.walls) {
+        nb::dict facts;
+        facts["element"] = wall.element;
+        facts["first_height"] = wall.first_height;
+        facts["thickness"] = wall.thickness;
+        if (const auto& y_plus = wall.y_plus)
+            facts["y_plus"] = nb::make_tuple(y_plus->smallest, y_plus->median, y_plus->largest);
+        walls.append(facts);
+    }
+    nb::dict facts;
+    facts["vertices"] = found.vertices;
+    facts["layer_cells"] = found.layer_cells;
+    facts["cells_beyond"] = found.cells_beyond;
+    facts["chord"] = found.result.conditions.chord;
+    facts["estimate"] = python::to_python(found.result.estimate);
+    facts["walls"] = walls;
+    facts["warnings"] = warnings_of(found.result.warnings);
+    return facts;
+}
+
 /// The options of a case as the package hands them over.
 struct CaseArguments {
     std::string solver, folder, turbulence;
@@ -143,6 +172,7 @@ nb::tuple write_case(const CaseArguments& arguments, const nb::list& given_secti
 void add_runs(nb::module_& module) {
     module.def("generate", &generate, nb::arg("sections"), nb::arg("values"), nb::arg("sizes").none(),
                nb::arg("progress").none(), nb::arg("stop") = nb::none(), nb::arg("divisor") = nb::none());
+    module.def("forecast", &forecast, nb::arg("sections"), nb::arg("values"), nb::arg("sizes").none());
     module.def(
         "write_case",
         [](const std::string& solver, const std::string& folder, const std::string& turbulence, bool unsteady,

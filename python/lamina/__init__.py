@@ -32,18 +32,19 @@ from ._triangulation import (IndexLists, Triangulation, VoronoiDiagram, constrai
                              delaunay, merge_points, refine, ring_segments)
 
 if TYPE_CHECKING:
-    from ._commands import (BOUNDARY_LAYER_STATES, ElementFlow, FamilyMember, Flow, FlowSide, Info, Page, SolutionSizes,
-                            case, convert, family, flow, info, sizes, view)
+    from ._commands import (BOUNDARY_LAYER_STATES, ElementFlow, FamilyMember, Flow, FlowSide, Forecast, Info, Page,
+                            Polar, SolutionSizes, WallForecast, case, convert, family, flow, forecast, info, polar,
+                            read_polar, sizes, view)
 
 __all__ = ["BOUNDARY_LAYER_STATES", "BatchResult", "DynamicTriangulation", "ElementFlow", "Error", "FamilyMember",
-           "Flow", "FlowSide", "IndexLists", "Info", "InputError", "IoError", "LimitError", "Mesh", "MeshCheck",
-           "MeshError", "MeshWarning", "MorphMap", "NODE_TYPES", "OptionError", "Page", "QualitySummary",
-           "RemeshedMesh", "RunEstimate", "ShapeParameters", "SolutionSizes", "TransitionSummary", "Triangulation",
-           "UsageError", "VoronoiDiagram", "WallSummary", "WallVertices", "WrongTypeError", "__version__", "batch",
-           "case", "check", "constrain_triangles", "constrained_delaunay", "convert", "cst_shape", "delaunay",
-           "family", "flow", "formats", "hicks_henne_shape", "hinge_shape", "info", "merge_points", "mesh",
-           "mesh_of_arrays", "naca", "naca_shape", "outlines", "read", "read_metric", "refine", "remesh",
-           "ring_segments", "sizes", "view", "write"]
+           "Flow", "FlowSide", "Forecast", "IndexLists", "Info", "InputError", "IoError", "LimitError", "Mesh",
+           "MeshCheck", "MeshError", "MeshWarning", "MorphMap", "NODE_TYPES", "OptionError", "Page", "Polar",
+           "QualitySummary", "RemeshedMesh", "RunEstimate", "ShapeParameters", "SolutionSizes", "TransitionSummary",
+           "Triangulation", "UsageError", "VoronoiDiagram", "WallForecast", "WallSummary", "WallVertices",
+           "WrongTypeError", "__version__", "batch", "case", "check", "constrain_triangles", "constrained_delaunay",
+           "convert", "cst_shape", "delaunay", "family", "flow", "forecast", "formats", "hicks_henne_shape",
+           "hinge_shape", "info", "merge_points", "mesh", "mesh_of_arrays", "naca", "naca_shape", "outlines", "polar",
+           "read", "read_metric", "read_polar", "refine", "remesh", "ring_segments", "sizes", "view", "write"]
 
 
 def __getattr__(name: str) -> Any:

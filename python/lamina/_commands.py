@@ -1,19 +1,20 @@
-"""What the other commands of the program do: flow, info, case, family, sizes, convert, view."""
+"""What the other commands of the program do: flow, polar, forecast, info, case, family, sizes, convert, view."""
 
 from __future__ import annotations
 
+import json
 import math
 import os
 import warnings
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
 from . import _lamina
 from ._arrays import Values, doubles
-from ._errors import InputError, MeshWarning, OptionError, UsageError
+from ._errors import InputError, MeshWarning, OptionError, RunEstimate, UsageError
 from ._mesh import Mesh, read
 from ._meshing import made_mesh, run_arguments
 from ._options import with_options
@@ -113,6 +114,12 @@ class Flow(Values):
     mach_numbers: np.ndarray | None = None  #: (p,) at its points
 
 
+def transition_values(ncrit: float | None, trip: float | None, trip_lower: float | None) -> list[tuple[str, float]]:
+    """Returns the options of transition that are given, as the C++ part takes them."""
+    given = {"ncrit": ncrit, "trip": trip, "trip-lower": trip_lower}
+    return [(name, float(value)) for name, value in given.items() if value is not None]
+
+
 @with_options
 def flow(sections: Sections, *, ncrit: float | None = None, trip: float | None = None,
          trip_lower: float | None = None, **options: Unpack[MeshOptions]) -> Flow:
@@ -132,15 +139,185 @@ def flow(sections: Sections, *, ncrit: float | None = None, trip: float | None =
     (True, 0.1)
     """
     arguments = run_arguments(sections, {**_NO_PRESET, **options})
-    given = {"ncrit": ncrit, "trip": trip, "trip-lower": trip_lower}
-    facts = _lamina.flow(arguments.sections, arguments.values,
-                         [(name, float(value)) for name, value in given.items() if value is not None])
+    facts = _lamina.flow(arguments.sections, arguments.values, transition_values(ncrit, trip, trip_lower))
     facts["elements"] = {name: ElementFlow(FlowSide(**upper), FlowSide(**lower))
                          for name, upper, lower in facts["elements"]}
     facts["warnings"] = [MeshWarning._from(warning) for warning in facts.get("warnings", ())]
     for warning in facts["warnings"]:
         warnings.warn(warning, stacklevel=2)
     return Flow(**facts)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Polar(Values):
+    """The forces at many angles of attack, as columns. Numbers that nobody has found are NaN.
+
+    Examples
+    --------
+    >>> polar = lamina.polar("naca:0012", alpha="0:8:4", reynolds=1e6)
+    >>> len(polar), bool((polar.cl[1:] > polar.cl[:-1]).all())
+    (3, True)
+    """
+
+    name: str  #: of the configuration
+    reynolds: float | None  #: Reynolds number
+    mach: float | None  #: Mach number
+    alpha: np.ndarray  #: (n,) angles of attack in degrees
+    cl: np.ndarray  #: (n,) lift coefficients
+    cd: np.ndarray  #: (n,) drag coefficients
+    cdp: np.ndarray  #: (n,) the part of the pressure in them
+    cm: np.ndarray  #: (n,) moments about the quarter chord, nose up
+    top_xtr: np.ndarray  #: (n,) share of the extent in x where the upper layer becomes turbulent
+    bottom_xtr: np.ndarray  #: (n,) the same on the lower side
+    y_plus: np.ndarray  #: (n,) the largest y+ on the mesh of a solver
+    state: Sequence[str]  #: whether each row can be trusted: "attached", "separated", "stalled", "steady", ...
+    steady: np.ndarray  #: (n,) whether the state is one of a steady flow that the method is for
+    note: Sequence[str]  #: more about the states
+
+    def __len__(self) -> int:
+        return len(self.alpha)
+
+    def table(self) -> Any:
+        """Returns the columns as a DataFrame of pandas, or as a dictionary where pandas is not installed.
+
+        Examples
+        --------
+        >>> table = lamina.polar("naca:0012", alpha="0:2:2", reynolds=1e6).table()
+        >>> list(table)[:3]
+        ['alpha', 'cl', 'cd']
+        """
+        columns = {f.name: getattr(self, f.name) for f in fields(self) if f.name not in ("name", "reynolds", "mach")}
+        try:
+            import pandas  # type: ignore[import-untyped, unused-ignore]
+        except ImportError:
+            return columns
+        return pandas.DataFrame(columns)
+
+
+def _polar_of(text: str) -> Polar:
+    facts = json.loads(text)
+    rows = facts["rows"]
+    keys = {"cl": "CL", "cd": "CD", "cdp": "CDp", "cm": "CM"}
+
+    def column(name: str) -> np.ndarray:
+        key = keys.get(name, name)
+        return np.array([math.nan if row.get(key) is None else row[key] for row in rows], dtype=float)
+
+    numbers = {name: column(name) for name in ("alpha", *keys, "top_xtr", "bottom_xtr", "y_plus")}
+    return Polar(name=facts["name"], reynolds=facts["reynolds"], mach=facts["mach"], **numbers,
+                 state=[row["state"] for row in rows], steady=np.array([row["steady"] for row in rows], dtype=bool),
+                 note=[row["note"] for row in rows])
+
+
+@with_options
+def polar(sections: Sections, *, ncrit: float | None = None, trip: float | None = None,
+          trip_lower: float | None = None, **options: Unpack[MeshOptions]) -> Polar:
+    """Computes the polar of sections without a mesh, as `lamina flow` does for a range of angles: `alpha="-4:18:1"`.
+
+    The other arguments are those of `flow()`. read_polar() reads those that `lamina polar` finds by solvers.
+
+    Examples
+    --------
+    >>> polar = lamina.polar("naca:2412", alpha="-2:6:2", reynolds=3e6)
+    >>> polar.state
+    ['attached', 'attached', 'attached', 'attached', 'attached']
+    """
+    if not isinstance(options.get("alpha"), str):
+        raise UsageError("alpha: a polar needs a range, such as '-4:18:1'")
+    arguments = run_arguments(sections, {**_NO_PRESET, **options})
+    return _polar_of(_lamina.polar(arguments.sections, arguments.values, transition_values(ncrit, trip, trip_lower)))
+
+
+def read_polar(file: str | os.PathLike[str]) -> Polar:
+    """Reads `polar.json`, which `lamina polar` writes, or the one in a folder.
+
+    Examples
+    --------
+    >>> import json, pathlib
+    >>> row = {"alpha": 4, "CL": 0.44, "CD": 0.009, "state": "steady", "steady": True, "note": ""}
+    >>> _ = pathlib.Path("polar.json").write_text(json.dumps({"name": "a", "reynolds": 1e6, "mach": None, "rows": [row]}))
+    >>> lamina.read_polar("polar.json").cl
+    array([0.44])
+    """
+    path = os.fspath(file)
+    if os.path.isdir(path):
+        path = os.path.join(path, "polar.json")
+    with open(path, encoding="utf-8") as stream:
+        text = stream.read()
+    try:
+        return _polar_of(text)
+    except (ValueError, KeyError, TypeError) as error:
+        raise InputError(f"{path}: is no polar.json of lamina: {error}") from error
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class WallForecast(Values):
+    """The layer on the wall of one element, before there is a mesh.
+
+    Examples
+    --------
+    >>> forecast = lamina.forecast("naca:0012", reynolds=1e6)
+    >>> forecast.walls[0].element
+    'airfoil'
+    """
+
+    element: str  #: its name
+    first_height: float  #: in units of the input
+    thickness: float  #: of the highest column, in units of the input
+    y_plus: tuple[float, float, float] | None = None  #: smallest, median and largest y+; None without a Reynolds number
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Forecast(Values):
+    """A mesh before it is made.
+
+    Examples
+    --------
+    >>> forecast = lamina.forecast("naca:0012", reynolds=1e6)
+    >>> 0 < forecast.layer_cells < forecast.cells
+    True
+    """
+
+    vertices: float  #: number of vertices, by estimate
+    layer_cells: float  #: number of cells in the layer
+    cells_beyond: float  #: number of triangles beyond it, by estimate
+    chord: float  #: in units of the input
+    estimate: RunEstimate  #: memory and time of the run
+    walls: Sequence[WallForecast]  #: one for each element; empty without layers
+    warnings: Sequence[MeshWarning] = ()  #: what is unusual
+
+    @property
+    def cells(self) -> float:
+        """Number of all cells.
+
+        Examples
+        --------
+        >>> forecast = lamina.forecast("naca:0012", cells=20000, reynolds=1e6)
+        >>> abs(forecast.cells - 20000) < 600
+        True
+        """
+        return self.layer_cells + self.cells_beyond
+
+
+@with_options
+def forecast(sections: Sections, **options: Unpack[MeshOptions]) -> Forecast:
+    """Says what `mesh()` would make, in some hundredths of a second, as `lamina mesh --dry-run` does. Arguments and errors
+    are those of `mesh()`.
+
+    Examples
+    --------
+    >>> forecast = lamina.forecast("naca:0012", reynolds=1e6)
+    >>> mesh = lamina.mesh("naca:0012", reynolds=1e6)
+    >>> abs(forecast.cells / (len(mesh.triangles) + len(mesh.quads)) - 1) < 0.1
+    True
+    """
+    arguments = run_arguments(sections, options)
+    facts = _lamina.forecast(arguments.sections, arguments.values, arguments.sizes)
+    facts["walls"] = [WallForecast(**wall) for wall in facts["walls"]]
+    facts["warnings"] = [MeshWarning._from(warning) for warning in facts["warnings"]]
+    for warning in facts["warnings"]:
+        warnings.warn(warning, stacklevel=2)
+    return Forecast(**facts)
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -155,3 +155,44 @@ def test_view(small, tmp_path):
     assert "\n" not in repr(page) and len(page) == len(page.html)
     small.write(tmp_path / "m.vtu")
     assert len(lamina.view(tmp_path / "m.vtu")) > 0.9 * len(page)
+
+
+def test_polar_is_that_of_the_program(program, tmp_path):
+    polar = lamina.polar("naca:2412", alpha="-2:6:4", reynolds=3e6, trip=0.1)
+    assert run([program], "flow", "naca:2412", "--alpha", "-2:6:4", "--reynolds", 3e6, "--trip", 0.1, "-o",
+               tmp_path / "polar.json").returncode == 0
+    written = lamina.read_polar(tmp_path)
+    assert written == lamina.read_polar(tmp_path / "polar.json")
+    assert (polar.name, polar.reynolds, polar.state) == (written.name, written.reynolds, written.state)
+    for name in ("cl", "cd", "cdp", "cm", "top_xtr", "bottom_xtr"):
+        assert np.allclose(getattr(polar, name), getattr(written, name), rtol=1e-9, atol=0)
+    assert polar.alpha.tolist() == [-2, 2, 6] and polar.steady.all() and np.isnan(polar.y_plus).all()
+    assert 0.05 < polar.top_xtr.min() and polar.top_xtr.max() < 0.1001
+    # Rows are those of single angles, each found from another one.
+    alone = lamina.flow("naca:2412", alpha=6, reynolds=3e6, trip=0.1)
+    assert polar.cl[2] == pytest.approx(alone.lift, rel=1e-3) and polar.cd[2] == pytest.approx(alone.drag, rel=1e-3)
+    assert list(polar.table()) == ["alpha", "cl", "cd", "cdp", "cm", "top_xtr", "bottom_xtr", "y_plus", "state", "steady",
+                                   "note"]
+    with pytest.raises(lamina.UsageError, match="a polar needs a range"):
+        lamina.polar("naca:0012", alpha=4)
+    (tmp_path / "polar.json").write_text("{}")
+    with pytest.raises(lamina.InputError, match="is no polar.json"):
+        lamina.read_polar(tmp_path)
+    with pytest.raises(FileNotFoundError):
+        lamina.read_polar(tmp_path / "nowhere.json")
+
+
+def test_forecast_says_what_the_mesh_will_be():
+    options = dict(reynolds=1e6, alpha=2)
+    forecast = lamina.forecast("naca:4412", **options)
+    mesh = lamina.mesh("naca:4412", **options)
+    assert forecast.cells == pytest.approx(len(mesh.triangles) + len(mesh.quads), rel=0.05)
+    assert forecast.vertices == pytest.approx(len(mesh.points), rel=0.05)
+    assert forecast.chord == pytest.approx(1, rel=1e-2) and forecast.estimate.memory_bytes > 1e6
+    [wall] = forecast.walls
+    assert wall.element == "airfoil" and 0 < wall.first_height < wall.thickness
+    smallest, median, largest = wall.y_plus
+    assert 0 <= smallest < median < largest <= 1.05
+    assert lamina.forecast("naca:4412", first_height=1e-4, layers=5).walls[0].y_plus is None
+    with pytest.raises(lamina.OptionError):
+        lamina.forecast("naca:4412", growth=0.5)
