@@ -45,8 +45,18 @@ FIGURES = {
 }
 
 
-def cases(folder):
-    """Returns the files and options of each case by its name."""
+def plates(folder, gap):
+    """Writes two plates of unit length, one above the other, and returns their files."""
+    files = []
+    for name, low in (("lower", -0.1), ("upper", gap)):
+        corners = ((1, low), (1, low + 0.1), (0, low + 0.1), (0, low), (1, low))
+        files.append(str(pathlib.Path(folder, f"{name}_{gap:g}.dat")))
+        pathlib.Path(files[-1]).write_text(f"{name}\n" + "".join(f"{x} {y!r}\n" for x, y in corners))
+    return files
+
+
+def cases(folder, written):
+    """Returns the files and options of each case by its name; files of the cases that are made go into `written`."""
     own = lambda *names: [str(ROOT / "examples/geometry" / f"{name}.dat") for name in names]
     crm = own("crmhl2d_slat", "crmhl2d_main", "crmhl2d_flap")
     found = {
@@ -60,6 +70,9 @@ def cases(folder):
         "crm-hl": (crm, FLOW),
         "crm-hl, quads": (crm, FLOW + QUADS),
         "crm-hl, 25 layers": (crm, FIXED),
+        "rae 2822, kept points": (own("rae2822"), FLOW + ["--surface", "keep"]),
+        "slot of 1e-2": (plates(written, 1e-2), FLOW),
+        "slot of 1e-3": (plates(written, 1e-3), FLOW),
     }
     if folder:
         iced = lambda name: [str(folder / "special/iced" / f"iced_{name}.dat")]
@@ -222,7 +235,12 @@ def main():
     parser.add_argument("--random", type=int, default=0)
     parser.add_argument("--rows", type=pathlib.Path, help="writes all figures, one mesh a line, as JSON")
     options = parser.parse_args()
-    inputs = cases(options.folder)
+    with tempfile.TemporaryDirectory() as written:
+        measure(options, cases(options.folder, written))
+
+
+def measure(options, inputs):
+    """Prints the page."""
     tried = [""] + (options.only.split(",") if options.only else mechanisms())
     jobs = [(name, case) for name in tried for case in inputs]
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
