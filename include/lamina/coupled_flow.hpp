@@ -8,6 +8,7 @@
 // Example:
 //     const Geometry section = make_geometry({naca_airfoil("0012", 200)});
 //     const std::vector<FlowConditions> conditions{{.alpha_deg = 4, .reynolds = 1e6}};
+//     assert(can_be_coupled(section, reference_conditions(conditions[0], reference_box(section))));
 //     const CoupledFlow found = solve_coupled_flow(section, conditions).front();
 //     assert(found.converged && found.forces.lift > 0.41 && found.forces.lift < 0.45);
 //     assert(found.forces.drag > 0.006 && found.forces.drag < 0.008 && found.transition_upper < found.transition_lower);
@@ -45,10 +46,15 @@ struct CoupledFlow {
     int steps = 0;                ///< of Newton's method
 };
 
+/// Returns whether layers displace the flow of these bodies: one section without walls, at a Reynolds number at which its
+/// layers do not stay laminar throughout, 1e4 or more.
+LAMINA_EXPORT bool can_be_coupled(const Geometry& geometry, const ReferenceConditions& reference,
+                                  const FlowWalls& walls = {});
+
 /// Returns the flow round one section at each of the conditions. Layers follow the equations of momentum, kinetic energy and
 /// lag of the shear stress, waves grow along the envelope of those of all frequencies, and the wake is one chord long. A flow
-/// that is not found from layers without displacement begins with the last one found. Preconditions: one element; each of the
-/// conditions has a Reynolds number, and all have the same chord. Throws OptionError for conditions or options out of range.
+/// that is not found from layers without displacement begins with the last one found. Preconditions: can_be_coupled() at each
+/// of the conditions, and all have the same chord. Throws OptionError for conditions or options out of range.
 LAMINA_EXPORT std::vector<CoupledFlow> solve_coupled_flow(const Geometry& geometry,
                                                           std::span<const FlowConditions> conditions,
                                                           const TransitionOptions& transition = {});

@@ -8,12 +8,6 @@ namespace lamina::app {
 
 namespace {
 
-bool can_be_coupled(const Geometry& geometry, const ReferenceConditions& reference, const FlowWalls& walls) {
-    constexpr double least_reynolds = 1e4;
-    return geometry.elements.size() == 1 && reference.reynolds >= least_reynolds && !walls.below && !walls.above &&
-           !walls.pitch;
-}
-
 /// Refuses options of transition for layers that are not solved together with the flow.
 void require_default(const TransitionOptions& transition) {
     const TransitionOptions usual;

@@ -148,6 +148,18 @@ void expect_derivatives(const coupled::Station& a, const coupled::Station& b, F&
     }
 }
 
+TEST(CoupledFlow, IsForOneSectionWithoutWallsWhoseLayersBecomeTurbulent) {
+    const Geometry section = section_of("0012");
+    EXPECT_TRUE(can_be_coupled(section, {.reynolds = 1e4}));
+    EXPECT_FALSE(can_be_coupled(section, {.reynolds = 9999}));
+    EXPECT_FALSE(can_be_coupled(section, {}));
+    for (const FlowWalls& walls : {FlowWalls{.below = -1}, FlowWalls{.above = 1}, FlowWalls{.pitch = 1}})
+        EXPECT_FALSE(can_be_coupled(section, {.reynolds = 1e6}, walls));
+    Geometry two = section;
+    two.elements.push_back(section.elements.front());
+    EXPECT_FALSE(can_be_coupled(two, {.reynolds = 1e6}));
+}
+
 TEST(LayerEquations, HaveTheDerivativesOfDifferences) {
     const coupled::LayerConditions conditions{1e-6, 9};
     const coupled::Station a{0.30, 5, 4.0e-4, 1.1e-3, 1.15}, b{0.32, 6, 4.2e-4, 1.2e-3, 1.14},

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/reproducible_math.hpp"
+#include "flow/boundary_layer.hpp"
 #include "flow/coupled/solver.hpp"
 #include "flow/panel_system.hpp"
 #include "flow/sides.hpp"
@@ -186,15 +187,19 @@ private:
 
 namespace lamina {
 
+bool can_be_coupled(const Geometry& geometry, const ReferenceConditions& reference, const FlowWalls& walls) {
+    return geometry.elements.size() == 1 && reference.reynolds && !flow::is_laminar(reference) && !walls.below &&
+           !walls.above && !walls.pitch;
+}
+
 std::vector<CoupledFlow> solve_coupled_flow(const Geometry& geometry, std::span<const FlowConditions> conditions,
                                             const TransitionOptions& transition) {
-    assert(geometry.elements.size() == 1);
     validate(transition);
     std::optional<flow::coupled::Section> section;
     std::vector<CoupledFlow> flows;
     for (const FlowConditions& each : conditions) {
         const ReferenceConditions reference = reference_conditions(each, reference_box(geometry));
-        assert(reference.reynolds);
+        assert(can_be_coupled(geometry, reference));
         CoupledFlow& found = flows.emplace_back(CoupledFlow{solve_flow(geometry, each), {}});
         found.forces = flow_forces(found.flow);
         if (found.flow.estimated) continue;
