@@ -11,7 +11,12 @@ vcpkg_check_features(OUT_FEATURE_OPTIONS FEATURE_OPTIONS
         cgns LAMINA_CGNS
         tools LAMINA_APP
 )
-vcpkg_find_acquire_program(PKGCONFIG)
+if("mesher" IN_LIST FEATURES)
+    vcpkg_find_acquire_program(PKGCONFIG)
+    list(APPEND FEATURE_OPTIONS "-DPKG_CONFIG_EXECUTABLE=${PKGCONFIG}")
+else()
+    list(APPEND FEATURE_OPTIONS -DLAMINA_COMPONENTS=delaunay)
+endif()
 vcpkg_cmake_configure(
     SOURCE_PATH "${SOURCE_PATH}"
     OPTIONS
@@ -19,7 +24,6 @@ vcpkg_cmake_configure(
         -DLAMINA_TESTS=OFF
         -DLAMINA_BENCH=OFF
         -DLAMINA_PYTHON=OFF
-        "-DPKG_CONFIG_EXECUTABLE=${PKGCONFIG}"
 )
 vcpkg_cmake_install()
 vcpkg_cmake_config_fixup(CONFIG_PATH lib/cmake/lamina)
