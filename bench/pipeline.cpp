@@ -34,11 +34,12 @@ BENCHMARK(naca0012)->ArgName("threads")->Arg(1)->Arg(2)->Arg(4)->Unit(benchmark:
 Work triangle_outside_the_layer(const CaseOptions& options) {
     const std::vector<std::string> input{"naca:0012"};
     const layers::LayerGrowth growth = layers::layer_growth(options.layer, {});
-    const Geometry geometry =
-        surface::prepare_within(read_geometry(input), options.surface, pipeline::spacing_limits(options, growth), {});
+    const Geometry geometry = surface::prepare_within(
+        read_geometry(input), options.surface,
+        pipeline::spacing_limits(options.layer, growth, pipeline::wall_gradation(options.sizing, 1), 1), {});
     const decoupling::FarField far_field = decoupling::place_far_field(bounding_box(geometry), 1, options.far_field);
-    const layers::Layer layer =
-        layers::make_layer(geometry, options.layer, growth, pipeline::border_options(options, 1, {}));
+    const layers::Layer layer = layers::make_layer(geometry, options.layer, growth,
+                                                   pipeline::border_options(options.sizing, options.refine, 1, {}));
     const SizeField field = sizing::make_size_field(border_loops(layer), {}, options.sizing, 1, far_field.box());
     const decoupling::Decoupling outer = decoupling::decouple({layer.points, layer.borders, field, far_field});
 

@@ -119,8 +119,8 @@ void validate_order(const CaseOptions& options) {
     if (!options.geometry.sheets.empty()) refuse(sheets_are_straight);
 }
 
-void refuse_curved_sheets(const CaseOptions& options, const Geometry& geometry) {
-    if (options.order > 1 && has_sheets(geometry)) throw OptionError("order", sheets_are_straight);
+void refuse_curved_sheets(unsigned order, const Geometry& geometry) {
+    if (order > 1 && has_sheets(geometry)) throw OptionError("order", sheets_are_straight);
 }
 
 void curve_mesh(unsigned order, std::span<const CurvedEdge> curves, MeshResult& result) {

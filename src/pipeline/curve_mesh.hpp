@@ -16,7 +16,7 @@ void validate_order(const CaseOptions& options);
 inline std::size_t points_on_curves(unsigned order) { return order > 1 ? 2 * std::size_t{order} - 1 : 0; }
 
 /// Throws OptionError where the cells are to be curved and an element has sheets.
-void refuse_curved_sheets(const CaseOptions& options, const Geometry& geometry);
+void refuse_curved_sheets(unsigned order, const Geometry& geometry);
 
 /// Makes the cells of a mesh follow these curves of its walls, proves them valid, and records both in the result, with a
 /// warning of edges that were divided and are straight. Throws MeshError where the cells of the layer form no columns.

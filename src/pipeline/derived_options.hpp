@@ -18,13 +18,18 @@ inline constexpr double min_wall_gradation = 0.05;
 /// Returns whether a background mesh decides on the sizes beyond the layers (SizedMesh::gradation).
 inline bool decides_on_sizes(const SizingOptions& sizing) { return sizing.background && sizing.background->gradation; }
 
-/// Returns the limits that the layer over the walls sets on their spacing.
-LAMINA_EXPORT surface::SpacingLimits spacing_limits(const CaseOptions& options, const layers::LayerGrowth& growth);
+/// Returns how fast the spacing along walls may grow: with the gradation of the layer's border, or more.
+LAMINA_EXPORT double wall_gradation(const SizingOptions& sizing, double fineness);
+
+/// Returns the limits that a layer of this growth over the walls sets on their spacing. `gradation` is wall_gradation(),
+/// `order` that of the cells.
+LAMINA_EXPORT surface::SpacingLimits spacing_limits(const LayerOptions& layer, const layers::LayerGrowth& growth,
+                                                    double gradation, unsigned order);
 
 /// Returns the options by which the outer border of the layer is divided to suit sizes and refinement. `chord` is the
 /// reference chord.
-LAMINA_EXPORT layers::BorderOptions border_options(const CaseOptions& options, double chord,
-                                                   std::span<const SizeSource> sources);
+LAMINA_EXPORT layers::BorderOptions border_options(const SizingOptions& sizing, const RefineOptions& refine,
+                                                   double chord, std::span<const SizeSource> sources);
 
 /// Returns the bodies in the form that the sizing stage takes.
 sizing::SizedBodies sized_bodies(const Geometry& geometry, const ReferenceConditions& conditions);
@@ -33,7 +38,7 @@ sizing::SizedBodies sized_bodies(const Geometry& geometry, const ReferenceCondit
 layers::BorderOptions border_with_sources(layers::BorderOptions border, std::span<const SizeSource> sources);
 
 /// Returns the bodies as they are in the domain: cut at a line of symmetry, or turned to a blade of a row.
-Geometry part_in_domain(Geometry geometry, const CaseOptions& options);
+Geometry part_in_domain(Geometry geometry, const FarFieldOptions& domain, const FlowConditions& conditions);
 
 /// Returns the sizes with the wakes that follow the angle of attack at each angle of a range (FlowConditions::alphas).
 SizingOptions wakes_at_angles(SizingOptions sizing, const FlowConditions& conditions);

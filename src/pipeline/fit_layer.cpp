@@ -63,16 +63,14 @@ std::vector<layers::Circle> circles_round_unexcused(std::span<const mesh::Narrow
 
 /// Returns the sizes by which outer walls are divided: those of the bodies' walls and of the sources, which grow as the
 /// spacing of walls may.
-SizeField size_of_outer_walls(const CaseOptions& options, const Geometry& geometry,
-                              const ReferenceConditions& conditions, const layers::LayerGrowth& growth,
-                              const Box& domain, std::span<const SizeSource> finer) {
+SizeField size_of_outer_walls(SizingOptions sizing, double gradation, const Geometry& geometry,
+                              const ReferenceConditions& conditions, const Box& domain,
+                              std::span<const SizeSource> finer) {
     const sizing::SizedBodies bodies = sized_bodies(geometry, conditions);
-    std::vector<SizeSource> sources =
-        sizing::gather_size_requests(options.sizing, bodies, bodies.walls, domain).at_borders;
+    std::vector<SizeSource> sources = sizing::gather_size_requests(sizing, bodies, bodies.walls, domain).at_borders;
     sources.insert(sources.end(), finer.begin(), finer.end());
-    SizingOptions sizing = options.sizing;
     sizing.background.reset();
-    sizing.gradation = spacing_limits(options, growth).gradation;
+    sizing.gradation = gradation;
     return sizing::make_size_field(bodies.walls, sources, sizing, conditions.chord, domain);
 }
 
@@ -87,9 +85,11 @@ FittedLayer grow_within(const CaseOptions& options, Geometry geometry, const Ref
     LineGraph lines = arrange_lines(options.lines, far_field, geometry);
     std::vector<layers::OuterWall> divided;
     if (!outer_walls.empty())
-        divided = divide_outer_walls(outer_walls, far_field,
-                                     size_of_outer_walls(options, geometry, conditions, growth, far_field.box(), finer),
-                                     lines);
+        divided =
+            divide_outer_walls(outer_walls, far_field,
+                               size_of_outer_walls(options.sizing, wall_gradation(options.sizing, options.fineness),
+                                                   geometry, conditions, far_field.box(), finer),
+                               lines);
     layers::Obstacles obstacles;
     if (!lines.pieces.empty())
         obstacles =
@@ -273,7 +273,7 @@ bool end_obtuse_columns(LayerTopology topology, const DecompositionOptions& deco
 FittedLayer fit_layer(PreparedWalls walls, const CaseOptions& options, const ReferenceConditions& conditions,
                       const layers::LayerGrowth& growth, std::vector<ElementWake> wakes) {
     const LayerOptions& layer = options.layer;
-    const layers::BorderOptions border = border_options(options, conditions.chord, {});
+    const layers::BorderOptions border = border_options(options.sizing, options.refine, conditions.chord, {});
     std::vector<SizeSource> on_outer_walls;
     const auto grow = [&](surface::PreparedSurfaces prepared) {
         FittedLayer fitted = grow_within(options, std::move(prepared.geometry), conditions, growth, on_outer_walls);

@@ -109,8 +109,9 @@ MeshForecast forecast(const Geometry& geometry, const CaseOptions& options, Stag
     MeshResult& result = forecast.result;
     const OutlinedMesh outlined = outline_mesh(plan.fitted, plan.options, clock, result);
     const layers::Layer& layer = outlined.layer;
-    result.estimate = estimate_within_limits(plan.options, layer, outlined.outer(plan.fitted, options.decoupling),
-                                             {options.limits, core::mesh_cost});
+    result.estimate =
+        estimate_within_limits(plan.options.refine, plan.options.order, plan.options.sizing.gradation, layer,
+                               outlined.outer(plan.fitted, options.decoupling), {options.limits, core::mesh_cost});
     clock.end(&StageSeconds::sizing);
     hand_over_decisions(plan, result);
     result.threads = thread_count();
@@ -171,7 +172,7 @@ MeshForecast forecast_mesh(const Geometry& geometry, const CaseOptions& options,
 MeshForecast forecast_mesh(const std::vector<std::string>& inputs, const CaseOptions& options,
                            const Progress& progress) {
     validate(options);
-    return forecast_mesh(read_inputs(inputs, options), options, progress);
+    return forecast_mesh(read_inputs(inputs, options.geometry, options.far_field), options, progress);
 }
 
 }  // namespace lamina

@@ -37,7 +37,10 @@ FlowDecisions flow_decisions(const layers::LayerGrowth& growth, std::span<const 
 PreparedWalls prepare_walls(const Geometry& given, const CaseOptions& options, const ReferenceConditions& conditions,
                             const layers::LayerGrowth& growth, std::span<const geometry::WallSpacing> spacings,
                             const WorkBudget& budget) {
-    PreparedWalls walls{given, {}, spacing_limits(options, growth)};
+    PreparedWalls walls{
+        given,
+        {},
+        spacing_limits(options.layer, growth, wall_gradation(options.sizing, options.fineness), options.order)};
     walls.limits.walls.assign(spacings.begin(), spacings.end());
     walls.prepared = surface::prepare_with_curves(given, options.surface, walls.limits, conditions.chord);
     const decoupling::FarField far_field =
@@ -53,15 +56,14 @@ PreparedWalls prepare_walls(const Geometry& given, const CaseOptions& options, c
 
 }  // namespace
 
-Geometry read_inputs(const std::vector<std::string>& inputs, const CaseOptions& options) {
-    GeometryOptions given = options.geometry;
-    if (options.far_field.symmetry) given.close = true;  // half a section without its chord
-    return read_geometry(inputs, given);
+Geometry read_inputs(const std::vector<std::string>& inputs, GeometryOptions options, const FarFieldOptions& domain) {
+    if (domain.symmetry) options.close = true;  // half a section without its chord
+    return read_geometry(inputs, options);
 }
 
 PlannedLayer plan_layer(const Geometry& whole, CaseOptions options, const WorkCost& cost, StageClock& clock) {
-    const Geometry given = part_in_domain(whole, options);
-    refuse_curved_sheets(options, given);
+    const Geometry given = part_in_domain(whole, options.far_field, options.conditions);
+    refuse_curved_sheets(options.order, given);
     const ReferenceConditions conditions = reference_conditions(options.conditions, reference_box(given));
     options.sizing = sizes_between_borders(wakes_at_angles(std::move(options.sizing), options.conditions),
                                            options.far_field, conditions.chord, options.fineness);

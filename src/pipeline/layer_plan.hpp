@@ -22,8 +22,8 @@ struct PlannedLayer {
     FittedLayer fitted;
 };
 
-/// Reads the inputs as the options say.
-Geometry read_inputs(const std::vector<std::string>& inputs, const CaseOptions& options);
+/// Reads the inputs as the options say. Halves above a line of symmetry are closed along it.
+Geometry read_inputs(const std::vector<std::string>& inputs, GeometryOptions options, const FarFieldOptions& domain);
 
 /// Runs the stages up to the rays. Throws OptionError, and LimitError where walls or options ask for too much at this cost.
 PlannedLayer plan_layer(const Geometry& whole, CaseOptions options, const WorkCost& cost, StageClock& clock);

@@ -146,15 +146,15 @@ void require_walls_within(const SurfaceOptions& options, const Geometry& prepare
                          estimate);
 }
 
-RunEstimate estimate_within_limits(const CaseOptions& options, const layers::Layer& layer,
-                                   const decoupling::OuterRegion& region, const WorkBudget& budget) {
-    const RunEstimate estimate = estimate_mesh(options.refine, options.order, layer, region, budget.cost);
+RunEstimate estimate_within_limits(const RefineOptions& refine, unsigned order, double gradation,
+                                   const layers::Layer& layer, const decoupling::OuterRegion& region,
+                                   const WorkBudget& budget) {
+    const RunEstimate estimate = estimate_mesh(refine, order, layer, region, budget.cost);
     if (const double in_layer = layer_triangles(layer); in_layer > 0.5 * estimate.triangles)
         require_within(budget.limits, estimate, "layers",
                        fmt::format("the mesh, with {:.2g} triangles in the layer,", in_layer));
-    require_within(
-        budget.limits, estimate, "gradation",
-        fmt::format("{}, with these sizes at walls and sources and this far field,", options.sizing.gradation));
+    require_within(budget.limits, estimate, "gradation",
+                   fmt::format("{}, with these sizes at walls and sources and this far field,", gradation));
     return estimate;
 }
 

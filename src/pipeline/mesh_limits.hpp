@@ -36,9 +36,11 @@ void require_layers_within(const layers::LayerGrowth& growth, const Geometry& wa
 /// the gap. Takes less than a second.
 void require_walls_within(const SurfaceOptions& options, const Geometry& prepared, const WorkBudget& budget);
 
-/// Estimates the run from the layer and the region beyond it. Throws LimitError where it would exceed the limits.
-RunEstimate estimate_within_limits(const CaseOptions& options, const layers::Layer& layer,
-                                   const decoupling::OuterRegion& region, const WorkBudget& budget);
+/// Estimates the run from the layer and the region beyond it, for cells of this order. Throws LimitError where it would
+/// exceed the limits; the error names the gradation of the sizes.
+RunEstimate estimate_within_limits(const RefineOptions& refine, unsigned order, double gradation,
+                                   const layers::Layer& layer, const decoupling::OuterRegion& region,
+                                   const WorkBudget& budget);
 
 /// Returns how many triangles the estimate has beyond the layer.
 double triangles_beyond_layer(const RunEstimate& estimate, const layers::Layer& layer);

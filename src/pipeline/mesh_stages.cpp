@@ -173,22 +173,22 @@ std::vector<Marker> markers_of_mesh(const FittedLayer& fitted, const layers::Lay
 
 /// Doubles the vertices of two-sided lines, closes sheets, and checks the mesh as a whole: pieces know no lines, and sheets
 /// with a gap. Beside lines the summary of walls stays that of the pieces, since those with two sides have no layers.
-void complete_walls_without_thickness(const CaseOptions& options, MadeMesh& made) {
+void complete_walls_without_thickness(std::span<const InternalLine> lines, double min_angle_deg, MadeMesh& made) {
     MeshResult& result = made.result;
-    split_two_sided(options.lines, result.mesh, made.constraints);
+    split_two_sided(lines, result.mesh, made.constraints);
     result.mesh.constraints = made.constraints;
     close_sheets(result);
     WallSummary walls = std::move(result.check.walls);
-    result.check = check_mesh(result.mesh, {.min_angle_deg = options.refine.min_angle_deg,
+    result.check = check_mesh(result.mesh, {.min_angle_deg = min_angle_deg,
                                             .first_heights = first_heights_of_markers(result, result.mesh.markers)});
-    if (!options.lines.empty()) result.check.walls = std::move(walls);
+    if (!lines.empty()) result.check.walls = std::move(walls);
     require_valid(result.check);
 }
 
 /// Returns what the check of the pieces has to know of the layer.
-MeshCheckOptions options_of_check(const FittedLayer& fitted, const layers::Layer& layer, const CaseOptions& options,
+MeshCheckOptions options_of_check(const FittedLayer& fitted, const layers::Layer& layer, double min_angle_deg,
                                   const MeshResult& result, std::span<const Marker> markers) {
-    return {.min_angle_deg = options.refine.min_angle_deg,
+    return {.min_angle_deg = min_angle_deg,
             .first_heights = first_heights_of_markers(result, markers),
             .first_height_at = first_heights_at_vertices(fitted, layer)};
 }
@@ -242,7 +242,8 @@ MadeMesh make_mesh(const FittedLayer& fitted, const CaseOptions& options, MeshDr
     made.constraints = layer.edges.interfaces;
     std::optional<RunEstimate> estimate;
     driver.lead([&] {
-        estimate = estimate_within_limits(options, layer, outer, budget);
+        estimate =
+            estimate_within_limits(options.refine, options.order, options.sizing.gradation, layer, outer, budget);
         result.estimate = *estimate;
     });
     clock.end(&StageSeconds::sizing);
@@ -255,7 +256,8 @@ MadeMesh make_mesh(const FittedLayer& fitted, const CaseOptions& options, MeshDr
     clock.end(&StageSeconds::decoupling);
 
     clock.begin("layer triangulation, refinement and check of pieces");
-    mesh::PiecewiseCheck check(borders.points, options_of_check(fitted, layer, options, result, markers),
+    mesh::PiecewiseCheck check(borders.points,
+                               options_of_check(fitted, layer, options.refine.min_angle_deg, result, markers),
                                driver.matched_elsewhere(region.points.size()));
     core::BusyTimes times;
     MadePieces pieces =
@@ -273,7 +275,8 @@ MadeMesh make_mesh(const FittedLayer& fitted, const CaseOptions& options, MeshDr
     result.mesh = std::move(pieces.mesh);
     result.mesh.markers = std::move(markers);
     summarize_cells(layer, pieces.cells, result);
-    if (!options.lines.empty() || has_sheets(result.geometry)) complete_walls_without_thickness(options, made);
+    if (!options.lines.empty() || has_sheets(result.geometry))
+        complete_walls_without_thickness(options.lines, options.refine.min_angle_deg, made);
     summarize_refinement(pieces.summary, result);
     const WorstPlaces places{check.widest().middle, check.narrowest().middle, pieces.summary.oversized.middle,
                              made.narrow};

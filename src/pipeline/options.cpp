@@ -208,21 +208,25 @@ void validate(const CaseOptions& options) {
 
 namespace lamina::pipeline {
 
-surface::SpacingLimits spacing_limits(const CaseOptions& options, const layers::LayerGrowth& growth) {
+double wall_gradation(const SizingOptions& sizing, double fineness) {
+    constexpr double margin = 0.9;
+    return std::max(margin * sizing::border_gradation(sizing.gradation), min_wall_gradation / fineness);
+}
+
+surface::SpacingLimits spacing_limits(const LayerOptions& layer, const layers::LayerGrowth& growth, double gradation,
+                                      unsigned order) {
     surface::SpacingLimits limits;
-    limits.max_turning_deg = options.layer.max_ray_angle_deg;
-    limits.points_between = points_on_curves(options.order);
-    if (options.layer.equal_fans) limits.fan_parts = layers::equal_fan_parts(options.layer);
+    limits.max_turning_deg = layer.max_ray_angle_deg;
+    limits.points_between = points_on_curves(order);
+    if (layer.equal_fans) limits.fan_parts = layers::equal_fan_parts(layer);
     // The layer's border over a fan of rays has edges of height x ray angle, and grows no faster than its gradation.
     // Where the wall's spacing exceeds this, border edges are divided, and the rows below fan out to the division
     // points.
-    constexpr double margin = 0.9;
-    limits.gradation =
-        std::max(margin * sizing::border_gradation(options.sizing.gradation), min_wall_gradation / options.fineness);
-    if (!options.layer.enabled) return limits;
+    limits.gradation = gradation;
+    if (!layer.enabled) return limits;
     // The height of automatic and adaptive layers follows from the spacing of the wall, so it sets no limit.
     const auto fan_edge = [&](const layers::LayerGrowth& on_element) {
-        return requested_height(on_element).value_or(0) * core::radians(options.layer.max_ray_angle_deg);
+        return requested_height(on_element).value_or(0) * core::radians(layer.max_ray_angle_deg);
     };
     if (!(fan_edge(growth) > 0)) return limits;
     limits.fan_spacing = fan_edge(growth);
@@ -231,15 +235,15 @@ surface::SpacingLimits spacing_limits(const CaseOptions& options, const layers::
     return limits;
 }
 
-layers::BorderOptions border_options(const CaseOptions& options, double chord, std::span<const SizeSource> sources) {
+layers::BorderOptions border_options(const SizingOptions& sizing, const RefineOptions& refine, double chord,
+                                     std::span<const SizeSource> sources) {
     const auto largest = [&](const std::optional<Length>& size) { return size ? in_units(*size, chord) : HUGE_VAL; };
     layers::BorderOptions border;
-    border.gradation = sizing::border_gradation(options.sizing.gradation);
-    border.max_edge =
-        sizing::frozen_share * std::min(largest(options.sizing.wall_size), largest(options.sizing.far_size));
+    border.gradation = sizing::border_gradation(sizing.gradation);
+    border.max_edge = sizing::frozen_share * std::min(largest(sizing.wall_size), largest(sizing.far_size));
     // Neighbouring frozen edges may differ by sqrt 2 / (2 sin(bound)) before a quality-driven vertex can encroach
     // (docs/decisions/0003). A tenth more saves many splits, and has never made a vertex encroach.
-    const double bound = core::radians(options.refine.min_angle_deg);
+    const double bound = core::radians(refine.min_angle_deg);
     border.max_ratio = 1.1 * std::sqrt(2.0) / (2 * core::sin_reproducible(bound));
     return border_with_sources(std::move(border), sources);
 }
@@ -265,11 +269,10 @@ layers::BorderOptions border_with_sources(layers::BorderOptions border, std::spa
     return border;
 }
 
-Geometry part_in_domain(Geometry geometry, const CaseOptions& options) {
-    const FarFieldOptions& domain = options.far_field;
+Geometry part_in_domain(Geometry geometry, const FarFieldOptions& domain, const FlowConditions& conditions) {
     if (domain.symmetry) return cut_at_symmetry(std::move(geometry), *domain.symmetry);
     if (!domain.pitch) return geometry;
-    const double chord = reference_conditions(options.conditions, reference_box(geometry)).chord;
+    const double chord = reference_conditions(conditions, reference_box(geometry)).chord;
     return blade_row(std::move(geometry), in_units(*domain.pitch, chord), domain.stagger_deg);
 }
 

@@ -88,7 +88,7 @@ MadeMesh run_on_inputs(const std::vector<std::string>& inputs, const CaseOptions
     Geometry geometry;
     const auto read = [&](StageClock& clock) -> const Geometry& {
         clock.begin("geometry");
-        geometry = read_inputs(inputs, options);
+        geometry = read_inputs(inputs, options.geometry, options.far_field);
         clock.end(&StageSeconds::geometry);
         return geometry;
     };
@@ -110,11 +110,12 @@ namespace lamina {
 using namespace pipeline;
 
 Geometry prepare_geometry(Geometry geometry, const CaseOptions& options) {
-    geometry = part_in_domain(std::move(geometry), options);
+    geometry = part_in_domain(std::move(geometry), options.far_field, options.conditions);
     const ReferenceConditions conditions = reference_conditions(options.conditions, reference_box(geometry));
     const layers::LayerGrowth growth = layers::layer_growth(options.layer, conditions);
-    return surface::prepare_within(std::move(geometry), options.surface, spacing_limits(options, growth),
-                                   conditions.chord);
+    const double gradation = wall_gradation(options.sizing, options.fineness);
+    return surface::prepare_within(std::move(geometry), options.surface,
+                                   spacing_limits(options.layer, growth, gradation, options.order), conditions.chord);
 }
 
 MeshResult generate_mesh(const Geometry& geometry, const CaseOptions& options, const Progress& progress) {
@@ -130,7 +131,7 @@ MeshResult generate_mesh(const std::vector<std::string>& inputs, const CaseOptio
     if (has_budget(options)) {
         // Several meshes are made, and standard input can be read once.
         validate(options);
-        return generate_mesh(read_inputs(inputs, options), options, progress);
+        return generate_mesh(read_inputs(inputs, options.geometry, options.far_field), options, progress);
     }
     KeepingDriver driver;
     return whole(run_on_inputs(inputs, options, driver, progress));

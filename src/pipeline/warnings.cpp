@@ -279,7 +279,7 @@ void warn_of_topology(const MeshResult& result, std::vector<Warning>& warnings) 
 
 // ---- the isotropic region ----
 
-void warn_of_refinement(const MeshResult& result, const CaseOptions& options, const WorstPlaces& worst,
+void warn_of_refinement(const MeshResult& result, const RefineOptions& options, const WorstPlaces& worst,
                         std::vector<Warning>& warnings) {
     const auto add = [&](WarningCode code, std::size_t count, const std::string& unit, Point at,
                          const std::string& message) {
@@ -299,7 +299,7 @@ void warn_of_refinement(const MeshResult& result, const CaseOptions& options, co
         add(WarningCode::small_angle, narrow.size(), "triangles", (1.0 / 3) * (p[0] + p[1] + p[2]),
             fmt::format("{} below the bound of {} degrees, down to {:.2f}",
                         counted(narrow.size(), "triangle has an angle", "triangles have an angle"),
-                        options.refine.min_angle_deg, angle_of(narrowest)));
+                        options.min_angle_deg, angle_of(narrowest)));
     }
     if (const std::size_t refused = result.refinement.refused; refused > 0)
         add(WarningCode::refused_points, refused, "points", worst.narrowest,
@@ -379,7 +379,7 @@ std::vector<Warning> find_warnings(const MeshResult& result, const CaseOptions& 
     warn_of_transition(result, options.layer, warnings);
     warn_of_areas(result, options.layer, layer, warnings);
     warn_of_large_angles(result, worst, layer, warnings);
-    warn_of_refinement(result, options, worst, warnings);
+    warn_of_refinement(result, options.refine, worst, warnings);
     return warnings;
 }
 

@@ -38,10 +38,12 @@ struct Stages {
 Stages run_stages(const std::string& input, const CaseOptions& options) {
     Stages stages;
     const LayerGrowth growth = layer_growth(options.layer, {});
-    stages.geometry = surface::prepare_within(read_geometry(std::vector<std::string>{input}), options.surface,
-                                              spacing_limits(options, growth), {});
+    stages.geometry =
+        surface::prepare_within(read_geometry(std::vector<std::string>{input}), options.surface,
+                                spacing_limits(options.layer, growth, wall_gradation(options.sizing, 1), 1), {});
     const FarField far_field = place_far_field(bounding_box(stages.geometry), 1, options.far_field);
-    stages.layer = make_layer(stages.geometry, options.layer, growth, border_options(options, 1, {}));
+    stages.layer =
+        make_layer(stages.geometry, options.layer, growth, border_options(options.sizing, options.refine, 1, {}));
     const SizeField size = sizing::make_size_field(border_loops(stages.layer), {}, options.sizing, 1, far_field.box());
     stages.decoupling = decouple({stages.layer.points, stages.layer.borders, size, far_field, options.decoupling});
     stages.cells = fill_layer(stages.layer, options.layer.topology);
