@@ -22,9 +22,9 @@
 #include <lamina/transfer.hpp>
 
 #include "app/adapt_page.hpp"
+#include "app/case_inputs.hpp"
 #include "app/fingerprint.hpp"
 #include "app/folder_lock.hpp"
-#include "app/mesh_command_options.hpp"
 #include "app/mesh_run.hpp"
 #include "app/options.hpp"
 #include "app/progress.hpp"

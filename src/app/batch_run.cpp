@@ -25,9 +25,9 @@
 #include <lamina/threads.hpp>
 #include <lamina/version.hpp>
 
+#include "app/case_inputs.hpp"
 #include "app/check_report.hpp"
 #include "app/fingerprint.hpp"
-#include "app/mesh_command_options.hpp"
 #include "app/mesh_run.hpp"
 #include "app/options.hpp"
 #include "app/progress.hpp"

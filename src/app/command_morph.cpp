@@ -15,10 +15,10 @@
 #include <lamina/remesh.hpp>
 
 #include "app/case.hpp"
+#include "app/case_inputs.hpp"
 #include "app/check_report.hpp"
 #include "app/commands.hpp"
 #include "app/format_help.hpp"
-#include "app/mesh_command_options.hpp"
 #include "app/mesh_run.hpp"
 #include "app/morph_sequence.hpp"
 #include "app/options.hpp"

@@ -18,8 +18,8 @@
 #include <lamina/solution_sizes.hpp>
 
 #include "app/case.hpp"
+#include "app/case_inputs.hpp"
 #include "app/commands.hpp"
-#include "app/mesh_command_options.hpp"
 #include "app/options.hpp"
 #include "app/progress.hpp"
 #include "app/run_files.hpp"

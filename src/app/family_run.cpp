@@ -14,7 +14,7 @@
 #include <lamina/files.hpp>
 #include <lamina/pipeline.hpp>
 
-#include "app/mesh_command_options.hpp"
+#include "app/case_inputs.hpp"
 #include "app/options.hpp"
 #include "app/progress.hpp"
 #include "app/run_files.hpp"

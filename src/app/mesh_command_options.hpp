@@ -32,11 +32,4 @@ using OptionText = std::pair<const Option<MeshCase>*, std::string>;
 MeshCase case_of_command_line(const GivenOptions& options, const std::vector<std::string>& inputs,
                               const std::vector<OptionText>& further);
 
-/// Throws UsageError where standard input is asked for what it cannot give.
-void require_inputs(const MeshCase& mesh_case);
-
-/// Returns the options of the case with the background mesh read and the default limits set. Throws the errors of
-/// read_sizes().
-CaseOptions options_with_files(const MeshCase& mesh_case);
-
 }  // namespace lamina::app

@@ -18,7 +18,7 @@
 #include <lamina/solver_case.hpp>
 #include <lamina/stream.hpp>
 
-#include "app/mesh_command_options.hpp"
+#include "app/case_inputs.hpp"
 #include "app/options.hpp"
 #include "app/page_text.hpp"
 #include "app/progress.hpp"

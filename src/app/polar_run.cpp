@@ -15,10 +15,10 @@
 #include <lamina/io.hpp>
 #include <lamina/pipeline.hpp>
 
+#include "app/case_inputs.hpp"
 #include "app/fingerprint.hpp"
 #include "app/flow_run.hpp"
 #include "app/folder_lock.hpp"
-#include "app/mesh_command_options.hpp"
 #include "app/mesh_run.hpp"
 #include "app/options.hpp"
 #include "app/progress.hpp"
