@@ -93,6 +93,7 @@ std::string flow_summary(const FoundFlow& found) {
     if (found.transition)
         text += fmt::format("layers turbulent from {:.4f} of the extent in x on the upper, {:.4f} on the lower side\n",
                             found.transition->upper, found.transition->lower);
+    if (is_undisplaced(found)) text += undisplaced_line;
     for (const ElementFlow& element : flow.elements) {
         text += fmt::format("{}: lift coefficient {:.4f}, stagnation point ({:.5g}, {:.5g})\n", element.name,
                             element.lift, element.stagnation.x, element.stagnation.y);

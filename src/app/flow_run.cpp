@@ -41,6 +41,10 @@ void compress(FoundFlow& found, double mach) {
 
 }  // namespace
 
+bool is_undisplaced(const FoundFlow& found) {
+    return found.has_layers && !found.transition && !found.compressible && !found.flow.estimated;
+}
+
 Geometry in_row(Geometry geometry, const CaseOptions& options) {
     const FarFieldOptions& domain = options.far_field;
     if (!domain.pitch) return geometry;

@@ -134,6 +134,7 @@ FlowPolar flow_polar(Geometry geometry, const CaseOptions& options, const Transi
          find_flows(std::move(geometry), options, conditions_of_angles(options.conditions), transition)) {
         polar.rows.push_back(row_of_flow(found));
         coupled = coupled || found.transition;
+        polar.conditions.undisplaced = polar.conditions.undisplaced || is_undisplaced(found);
     }
     if (coupled) polar.conditions.transition = transition;
     return polar;
@@ -151,6 +152,7 @@ std::string polar_summary(const PolarConditions& conditions, std::span<const Pol
             fmt::format("{:8.3f} {} {} {} {} {} {}{}  {}\n", row.alpha_deg, column(row.cl, 8, 4), column(row.cd, 9, 5),
                         column(row.cdp, 9, 5), column(row.cm, 8, 4), column(row.top_xtr, 8, 4),
                         column(row.bottom_xtr, 8, 4), has_y_plus ? " " + column(row.y_plus, 8, 3) : "", row.state);
+    if (conditions.undisplaced) text += undisplaced_line;
     return text;
 }
 
@@ -181,6 +183,7 @@ Json polar_json(const PolarConditions& conditions, std::span<const PolarRow> row
     return {{"name", conditions.name},
             {"reynolds", json_number(conditions.reynolds)},
             {"mach", json_number(conditions.mach)},
+            {"undisplaced", conditions.undisplaced},
             {"rows", list}};
 }
 

@@ -32,6 +32,7 @@ struct PolarConditions {
     std::string name;  ///< of the configuration: its files, or its elements where they have none
     std::optional<double> reynolds{}, mach{};
     std::optional<TransitionOptions> transition{};  ///< where flow and layers are solved together
+    bool undisplaced = false;                       ///< whether a row has layers that do not displace the flow
 };
 
 /// A polar.

@@ -85,6 +85,11 @@ TEST(PolarCommand, WritesThePolarOfTheFlowAndSaysWhereItIsStalled) {
     EXPECT_EQ(stalled.exit_code, mesh_failed);
     EXPECT_NE(stalled.err.find("2 of 2 angles are not steady"), std::string::npos) << stalled.err;
     EXPECT_NE(folder.read("two/polar.csv").find(",stalled,no"), std::string::npos);
+    const std::string caution = "layers do not displace this flow: lift is";
+    EXPECT_NE(stalled.out.find(caution), std::string::npos) << stalled.out;
+    EXPECT_EQ(run.out.find(caution), std::string::npos) << run.out;
+    EXPECT_EQ(nlohmann::json::parse(folder.read("two/polar.json"))["undisplaced"], true);
+    EXPECT_NE(run_lamina(folder, {"flow", "two.dat", "--reynolds", "3e6"}).out.find(caution), std::string::npos);
     const TemporaryFolder empty;
     expect_refused(empty, {"polar", "naca:0012", "--alpha", "4", "-o", "out"}, usage, "a polar needs a range");
     expect_refused(empty, {"polar", "naca:0012", "--alpha", "0:4", "--order", "2", "-o", "out"}, usage, "--order");
