@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
 """What is each mechanism of the layer worth?
 
-    ablate.py PROGRAM STRESS [FOLDER] [--only NAME,...] [--random COUNT] [--rows OUT]
+    ablate.py PROGRAM STRESS [FOLDER] [--only NAME,...] [--random COUNT] [--rows OUT] [--against ROWS]
 
 PROGRAM and STRESS are lamina and lamina_stress built with LAMINA_ABLATION. Each mechanism, which the code names in
 `uses("NAME")`, is left out of the meshes of the cases below. The page on standard output has a row of continuous figures
 for each: how many meshes stay the same to the byte, and how the figures move on the mean and on the case on which they move
-most. FOLDER adds cases of iced sections and of several elements. --random also meshes COUNT random configurations with all
+most. FOLDER adds cases of iced sections and of several elements. The meshes with all mechanisms are compared with figures
+of an earlier run, tools/ablation.jsonl or ROWS, so that changes of any kind can be judged: `--only= --rows OUT` makes such
+figures, and changes no mechanism. --random also meshes COUNT random configurations with all
 mechanisms, without all those together that move nothing on the cases, and prints both results.
 """
 import argparse
@@ -26,6 +28,7 @@ FLOW = ["--y-plus", "1", "--reynolds", "5e6", "--alpha", "4"]
 AUTOMATIC = ["--first-height", "1e-5"]
 FIXED = ["--first-height", "2e-6", "--growth", "1.2", "--layers", "25"]
 QUADS = ["--layer-topology", "quads"]
+KEPT = ["--surface", "keep"]
 
 # The figures: title, and what makes them better: -1 smaller, 1 larger, 0 near 1.
 FIGURES = {
@@ -45,18 +48,24 @@ FIGURES = {
 }
 
 
-def plates(folder, gap):
-    """Writes two plates of unit length, one above the other, and returns their files."""
+def naca_slot(width):
+    """Returns two NACA 0012, of which the upper is this far above the lower where both are thickest."""
+    return ["naca:0012", "naca:0012", "--names", "upper,lower", "--transform", f"lower:shift:0,{-0.12003 - width}"]
+
+
+def plate_slot(folder, width):
+    """Writes two plates that are this far apart, and returns their files."""
     files = []
-    for name, low in (("lower", -0.1), ("upper", gap)):
-        corners = ((1, low), (1, low + 0.1), (0, low + 0.1), (0, low), (1, low))
-        files.append(str(pathlib.Path(folder, f"{name}_{gap:g}.dat")))
-        pathlib.Path(files[-1]).write_text(f"{name}\n" + "".join(f"{x} {y!r}\n" for x, y in corners))
+    for name, below in (("upper", 0), ("lower", 0.02 + width)):
+        along = [i / 100 for i in range(101)]
+        points = [(1 - x, 0.02 - below) for x in along] + [(x, -below) for x in along]
+        files.append(str(folder / f"{name}_{width}.dat"))
+        pathlib.Path(files[-1]).write_text("".join([f"{name}\n", *(f"{x:.6f} {y:.6f}\n" for x, y in points)]))
     return files
 
 
 def cases(folder, written):
-    """Returns the files and options of each case by its name; files of the cases that are made go into `written`."""
+    """Returns the files and options of each case by its name. Files that are missing are written to the second folder."""
     own = lambda *names: [str(ROOT / "examples/geometry" / f"{name}.dat") for name in names]
     crm = own("crmhl2d_slat", "crmhl2d_main", "crmhl2d_flap")
     found = {
@@ -70,9 +79,12 @@ def cases(folder, written):
         "crm-hl": (crm, FLOW),
         "crm-hl, quads": (crm, FLOW + QUADS),
         "crm-hl, 25 layers": (crm, FIXED),
-        "rae 2822, kept points": (own("rae2822"), FLOW + ["--surface", "keep"]),
-        "slot of 1e-2": (plates(written, 1e-2), FLOW),
-        "slot of 1e-3": (plates(written, 1e-3), FLOW),
+        "rae 2822, kept": (own("rae2822"), FLOW + KEPT),
+        "crm-hl, kept": (crm, FLOW + KEPT),
+        "naca slot 1e-4": (naca_slot(1e-4), FLOW),
+        "naca slot 1e-2": (naca_slot(1e-2), FLOW),
+        "plate slot 1e-4, auto": (plate_slot(written, 1e-4), AUTOMATIC),
+        "plate slot 1e-2, auto": (plate_slot(written, 1e-2), AUTOMATIC),
     }
     if folder:
         iced = lambda name: [str(folder / "special/iced" / f"iced_{name}.dat")]
@@ -87,6 +99,7 @@ def cases(folder, written):
             "lths, auto": (iced("lths_12530"), AUTOMATIC),
             "4415 iced": (iced("4415mod_8436"), FLOW),
             "lths 11342": (iced("lths_11342"), FLOW),
+            "glc305, kept": (iced("glc305_07250436"), FLOW + KEPT),
             "23014 iced, quads": (iced("23014mod_25130"), FLOW + QUADS),
         }
     return found
@@ -220,6 +233,27 @@ def table(head, rows):
     return "".join(f"| {' | '.join(line)} |\n" for line in lines)
 
 
+def compared(stored, base):
+    """Returns the mean and the worst decile of each figure, stored and now, on the cases that both have."""
+    rows = []
+    for title, sets in (("stored", stored), ("now", base)):
+        for statistic in ("mean", "worst decile"):
+            cells = [f"{title}, {statistic}"]
+            for figure, sign in FIGURES.items():
+                values = [sets[case][figure] for case in base if figure in stored.get(case, {}) and figure in base[case]]
+                worst = 90 if sign <= 0 else 10
+                known = values and (np.mean(values) if statistic == "mean" else np.percentile(values, worst))
+                cells.append(f"{known:.5g}" if values else "")
+            rows.append(cells)
+    return sorted(rows, key=lambda cells: cells[0].split(", ")[1])
+
+
+def stored_figures(path):
+    """Returns the figures of meshes with all mechanisms, by case, of rows that an earlier run wrote."""
+    rows = [json.loads(line) for line in path.read_text().splitlines()]
+    return {row["case"]: row for row in rows if not row["without"]}
+
+
 def random_configurations(stress, count, without):
     """Returns what the random configurations become without these mechanisms."""
     environment = os.environ | {"LAMINA_WITHOUT": ",".join(without)}
@@ -231,17 +265,19 @@ def main():
     parser.add_argument("program")
     parser.add_argument("stress")
     parser.add_argument("folder", nargs="?", type=pathlib.Path, help="holds multielement/ and special/iced/")
-    parser.add_argument("--only", default="", help="names, of which several joined by + are left out together")
+    parser.add_argument("--only", help="names, of which several joined by + are left out together")
     parser.add_argument("--random", type=int, default=0)
     parser.add_argument("--rows", type=pathlib.Path, help="writes all figures, one mesh a line, as JSON")
-    options = parser.parse_args()
+    parser.add_argument("--against", type=pathlib.Path, default=ROOT / "tools/ablation.jsonl",
+                        help="rows of an earlier run, which the meshes with all mechanisms are compared with")
     with tempfile.TemporaryDirectory() as written:
-        measure(options, cases(options.folder, written))
+        ablate(parser.parse_args(), pathlib.Path(written))
 
 
-def measure(options, inputs):
-    """Prints the page."""
-    tried = [""] + (options.only.split(",") if options.only else mechanisms())
+def ablate(options, written):
+    """Prints the page; geometry that is no file yet is written to the folder."""
+    inputs = cases(options.folder, written)
+    tried = [""] + ([name for name in options.only.split(",") if name] if options.only is not None else mechanisms())
     jobs = [(name, case) for name in tried for case in inputs]
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         figures = list(pool.map(lambda job: mesh(options.program, *inputs[job[1]], job[0].split("+")), jobs))
@@ -257,6 +293,13 @@ def measure(options, inputs):
     print("The cases with all mechanisms:\n")
     print(table(["case", *FIGURES], [[case, *(f"{found[f]:.4g}" if f in found else "" for f in FIGURES)]
                                      for case, found in base.items()]))
+    stored = {case: found for case, found in stored_figures(options.against).items() if case in base}
+    print("The same figures, and those of an earlier run:\n")
+    print(table(["", *FIGURES], compared(stored, base)))
+    print("Since then: better (+) or worse (-), the mean change (percents of triangles), the largest:\n")
+    print(table(["", "same bytes", *FIGURES], [["now", *row(stored, {case: base[case] for case in stored})]]))
+    if not results:
+        return
     print("Without one mechanism: better (+) or worse (-), the mean change (percents of triangles), the largest:\n")
     print(table(["without", "same bytes", *FIGURES], [[name, *row(base, found)] for name, found in results.items()]))
     idle = [name for name, found in results.items()
