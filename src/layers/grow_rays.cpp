@@ -158,8 +158,8 @@ void add_images(const Walls& walls, RaySet& set) {
         }
         for (std::size_t e = 1; e < elements; ++e) set.begin.push_back(set.lines.size() - n + set.begin[e]);
     }
-    if (walls.geometry.pitch) return;
-    for (const std::size_t e : walls.with_images()) {
+    const std::vector<std::size_t> mirrored = walls.geometry.pitch ? std::vector<std::size_t>{} : walls.with_images();
+    for (const std::size_t e : mirrored) {
         const std::size_t begin = set.begin[e], end = set.begin[e + 1];
         for (std::size_t i = end; i-- > begin;)
             set.lines.push_back(
@@ -328,7 +328,7 @@ Rays grow_rays(const Geometry& geometry, const LayerOptions& options, const Laye
     Rays rays;
     rays.outer_walls = outer_walls.size();
     rays.images = images;
-    rays.in_row = geometry.pitch.has_value();
+    rays.copies = geometry::shifts_in_row(geometry).size();
     rays.enabled = options.enabled;
     rays.wake_lengths.assign(elements, 0.0);
     rays.resampled.reserve(geometry.elements.size());
@@ -363,11 +363,11 @@ Rays grow_rays(const Geometry& geometry, const LayerOptions& options, const Laye
         for (const std::size_t e : with_images) heights.push_back(double(heights[e]));
         heights.resize(elements, 0);
     }
-    if (rays.in_row)
+    if (rays.copies > 0)
         for (std::size_t k = 0; k < with_images.size(); ++k)
             for (const WallHeight& least : growth.least_heights)
                 if (least.element == with_images[k])
-                    rays.growth.least_heights.push_back({elements - with_images.size() + k, least.at, least.height});
+                    rays.growth.least_heights.push_back({elements - images + k, least.at, least.height});
     grow_from(walls, {}, options, rays);
     if (options.wake_layers && !growth.layers && !growth.wakes.empty()) add_wakes(walls, options, rays);
     return rays;

@@ -105,7 +105,7 @@ void fit_and_count_layers(Rays& rays) {
     rays.front = front_heights(rays);
     rays.heights = columns_up_to(rays.set, rays.growth, rays.asked, rays.front);
     rays.counts = layer_counts(rays.set, rays.heights);
-    for (std::vector<std::uint32_t> before; rays.in_row && before != rays.counts;) {
+    for (std::vector<std::uint32_t> before; rays.copies > 0 && before != rays.counts;) {
         before = rays.counts;
         rays.lower_to_copies(rays.counts);
         if (rays.counts != before) rays.counts = layer_counts(rays.set, rays.heights, std::move(rays.counts));

@@ -135,7 +135,8 @@ struct Rays {
     std::size_t outer_walls = 0;  ///< number of elements behind the bodies that are outer walls
     /// Number of last elements, images in a line of symmetry, copies in a row of blades or obstacles: none is in the domain.
     std::size_t images = 0;
-    bool in_row = false;  ///< whether images are copies in a row: as many of each element, whose rays are as high
+    /// Number of copies of all bodies in a row of blades, with which images begin: their rays are as high. 0: no row.
+    std::size_t copies = 0;
 
     /// Returns the number of elements of which a part is in the domain.
     std::size_t shown() const { return set.elements() - images; }
@@ -144,10 +145,9 @@ struct Rays {
     /// Lowers values of rays to the smallest of their copies in a row.
     template <class T>
     void lower_to_copies(std::vector<T>& values) const {
-        if (!in_row) return;
-        const std::size_t n = set.begin[shown()];
-        for (std::size_t i = n; i < values.size(); ++i) values[i % n] = std::min(values[i % n], values[i]);
-        for (std::size_t i = n; i < values.size(); ++i) values[i] = values[i % n];
+        const std::size_t n = set.begin[shown()], end = (copies + 1) * n;
+        for (std::size_t i = n; i < end; ++i) values[i % n] = std::min(values[i % n], values[i]);
+        for (std::size_t i = n; i < end; ++i) values[i] = values[i % n];
     }
     /// Returns the number behind the last ray of an element in the domain.
     std::size_t domain_end(std::size_t element) const { return domain_ends[element]; }
@@ -177,7 +177,7 @@ struct Obstacles {
 /// check_simple(geometry). Throws OptionError for options out of range, for heights below the resolution of the
 /// coordinates and for layers absurdly thicker than the input is wide. Outer walls become elements behind those of the
 /// geometry. Rays of bodies with a line of symmetry are images of each other; those on the line lie in it. Rays of copies in
-/// a row of blades are as high as each other. Obstacles have no layers. Precondition: a row has no obstacles.
+/// a row of blades are as high as each other. Obstacles have no layers; in a row they come with their copies.
 Rays grow_rays(const Geometry& geometry, const LayerOptions& options, const LayerGrowth& growth,
                std::span<const OuterWall> outer_walls = {}, const Obstacles& obstacles = {});
 

@@ -11,6 +11,7 @@
 #include <lamina/error.hpp>
 
 #include "decoupling/far_field.hpp"
+#include "geometry/row.hpp"
 #include "geometry/symmetry.hpp"
 #include "layers/mechanisms.hpp"
 #include "layers/parameters.hpp"
@@ -93,7 +94,8 @@ FittedLayer grow_within(const CaseOptions& options, Geometry geometry, const Ref
     layers::Obstacles obstacles;
     if (!lines.pieces.empty())
         obstacles =
-            obstacles_of(lines, growth.first_height, geometry::is_cut(geometry) ? geometry.symmetry : std::nullopt);
+            obstacles_of(lines, growth.first_height, geometry::is_cut(geometry) ? geometry.symmetry : std::nullopt,
+                         geometry::shifts_in_row(geometry));
     layers::Rays rays = layers::grow_rays(geometry, options.layer, growth, divided, obstacles);
     if (options.layer.enabled && !geometry.pitch)
         require_room_for_layers(geometry, layers::fronts(rays), far_field, options.layer, growth);
@@ -141,11 +143,13 @@ std::vector<std::vector<Point>> fronts_in_domain(const layers::Rays& rays, const
 }
 
 /// Draws the border of a row, and repeats the requests of sizes along it.
-void request_in_row(std::span<const std::vector<Point>> fronts, FittedLayer& fitted) {
-    fitted.below = border_below(fronts, fitted.far_field);
-    std::vector<SizeSource>& at_borders = fitted.requests.at_borders;
+void request_in_row(std::vector<std::vector<Point>> fronts, FittedLayer& fitted) {
+    RowBorder border = border_below(std::move(fronts), ends_of_pieces(fitted.lines), fitted.far_field);
+    fitted.below = std::move(border.curve);
+    std::vector<SizeSource>&at_borders = fitted.requests.at_borders, &sources = fitted.requests.sources;
+    sources.insert(sources.end(), border.sources.begin(), border.sources.end());
     at_borders = repeated_in_row(std::move(at_borders), fitted.far_field);
-    fitted.requests.sources = repeated_in_row(std::move(fitted.requests.sources), fitted.far_field);
+    sources = repeated_in_row(std::move(sources), fitted.far_field);
 }
 
 /// Requests the sizes that the options, the fronts of the rays and the wakes behind their layers ask for. Where a background
@@ -165,7 +169,7 @@ void request_sizes(SizingOptions options, FittedLayer& fitted) {
                               std::span(along_wakes).subspan(first));
     }
     const bool decided = decides_on_sizes(options);
-    const std::vector<SizeSource> between_lines = sizes_between(fitted.lines);
+    const std::vector<SizeSource> between_lines = sizes_between(fitted.lines, geometry::shifts_in_row(fitted.geometry));
     options.sources.insert(options.sources.end(), between_lines.begin(), between_lines.end());
     if (!decided) options.sources.insert(options.sources.end(), along_wakes.begin(), along_wakes.end());
     std::vector<SizeSource>& at_borders = fitted.requests.at_borders;

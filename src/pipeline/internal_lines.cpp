@@ -25,6 +25,7 @@
 #include "core/text.hpp"
 #include "geometry/inside.hpp"
 #include "geometry/point_list.hpp"
+#include "geometry/row.hpp"
 #include "geometry/sheets.hpp"
 #include "geometry/symmetry.hpp"
 
@@ -244,6 +245,8 @@ Arrangement arrange(std::span<const InternalLine> lines, const Strip& strip, con
     add_borders(strip, segments, result);
     for (std::uint32_t k = 0; k < lines.size(); ++k) {
         std::vector<Point> points = lines[k].points;
+        // Free ends are no double vertices, so a wall without thickness needs one between them.
+        if (lines[k].two_sided && points.size() == 2) points.insert(points.begin() + 1, midpoint(points[0], points[1]));
         if (points.front() != points.back()) {
             const std::array before{distance(points[0], points[1]), distance(points.end()[-1], points.end()[-2])};
             points.front().y = strip.snapped(points.front().y, geometry::typed_rounding * before[0]);
@@ -338,11 +341,7 @@ void require_clear_of_sheets(const LineGraph& graph, std::span<const InternalLin
 }
 
 /// Throws OptionError where lines have no place in the domain.
-void require_place_for_lines(std::span<const InternalLine> lines, const Strip& strip, const Geometry& geometry) {
-    if (geometry.pitch)
-        throw OptionError(option_name,
-                          "lines cannot be given in a row of blades (--periodic): --refine line:... makes "
-                          "the mesh fine along them");
+void require_place_for_lines(std::span<const InternalLine> lines, const Strip& strip) {
     const Box& domain = strip.domain;
     for (const InternalLine& line : lines)
         for (const Point p : line.points)
@@ -399,7 +398,7 @@ LineGraph arrange_lines(std::span<const InternalLine> lines, const decoupling::F
                         Geometry& geometry) {
     if (lines.empty()) return {};
     const Strip strip = strip_of(far_field);
-    require_place_for_lines(lines, strip, geometry);
+    require_place_for_lines(lines, strip);
     const Arrangement arrangement = arrange(lines, strip, geometry);
     const std::vector<std::size_t> pieces = pieces_in_flow(arrangement, strip, geometry);
     std::vector<char> used(arrangement.points.size());
@@ -422,18 +421,34 @@ LineGraph arrange_lines(std::span<const InternalLine> lines, const decoupling::F
     return graph;
 }
 
-std::vector<SizeSource> sizes_between(const LineGraph& graph) {
+namespace {
+
+/// Adds copies of lines that are so far along y.
+void add_copies(std::span<const double> shifts, std::vector<std::vector<Point>>& lines) {
+    const std::size_t n = lines.size();
+    for (const double shift : shifts)
+        for (std::size_t k = 0; k < n; ++k) lines.push_back(geometry::moved(lines[k], shift));
+}
+
+}  // namespace
+
+std::vector<std::vector<Point>> ends_of_pieces(const LineGraph& graph) {
+    std::vector<std::vector<Point>> ends;
+    for (const Segment& piece : graph.pieces)
+        ends.push_back({graph.points[piece.a.index()], graph.points[piece.b.index()]});
+    return ends;
+}
+
+std::vector<SizeSource> sizes_between(const LineGraph& graph, std::span<const double> shifts) {
+    std::vector<std::vector<Point>> pieces = ends_of_pieces(graph);
+    add_copies(shifts, pieces);
     std::vector<Box> boxes;
-    const auto ends_of = [&](std::size_t k) {
-        return std::pair(graph.points[graph.pieces[k].a.index()], graph.points[graph.pieces[k].b.index()]);
-    };
-    for (std::size_t k = 0; k < graph.pieces.size(); ++k)
-        boxes.push_back(core::bounding_box(ends_of(k).first, ends_of(k).second));
+    for (const std::vector<Point>& ends : pieces) boxes.push_back(core::bounding_box(ends));
     const core::BoxTree tree(std::move(boxes));
     std::vector<SizeSource> sources;
     for (const Point p : graph.points) {
         const double nearest = tree.min_distance(p, HUGE_VAL, [&](std::size_t k) {
-            const auto [a, b] = ends_of(k);
+            const Point a = pieces[k].front(), b = pieces[k].back();
             return a == p || b == p ? HUGE_VAL : core::distance_to_segment(p, a, b);
         });
         if (std::isfinite(nearest) && nearest > 0) sources.push_back({.a = p, .b = p, .size = nearest});
@@ -471,7 +486,8 @@ void add_with_image(const LineGraph& graph, const Segment& piece, Point gap, dou
 
 }  // namespace
 
-layers::Obstacles obstacles_of(const LineGraph& graph, double first_height, std::optional<double> symmetry) {
+layers::Obstacles obstacles_of(const LineGraph& graph, double first_height, std::optional<double> symmetry,
+                               std::span<const double> shifts) {
     constexpr double gap_share = 0.1;
     layers::Obstacles obstacles;
     for (std::size_t v = 0; v < graph.points.size(); ++v)
@@ -485,6 +501,7 @@ layers::Obstacles obstacles_of(const LineGraph& graph, double first_height, std:
         else
             obstacles.outlines.push_back({a + along, b - along});
     }
+    add_copies(shifts, obstacles.outlines);
     return obstacles;
 }
 

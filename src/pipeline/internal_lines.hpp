@@ -39,15 +39,21 @@ struct LineGraph {
 /// that a line of symmetry cuts stay mirrored. Throws OptionError for a line outside the far field.
 LineGraph arrange_lines(std::span<const InternalLine> lines, const decoupling::FarField& far_field, Geometry& geometry);
 
-/// Returns sizes at the vertices of lines: their distances from other lines that they are no part of.
-std::vector<SizeSource> sizes_between(const LineGraph& graph);
+/// Returns sizes at the vertices of lines: their distances from other lines that they are no part of, and from copies that
+/// are so far along y.
+std::vector<SizeSource> sizes_between(const LineGraph& graph, std::span<const double> shifts);
 
 /// Returns the sizes that lines ask for along themselves.
 std::vector<SizeSource> sizes_along(std::span<const InternalLine> lines);
 
 /// Returns the lines as obstacles, which stop short of vertices and walls by a tenth of this height, or by a
-/// quarter of their length; with their images where there is a line of symmetry that cuts bodies.
-layers::Obstacles obstacles_of(const LineGraph& graph, double first_height, std::optional<double> symmetry);
+/// quarter of their length; with their images where there is a line of symmetry that cuts bodies, and with copies that are
+/// so far along y.
+layers::Obstacles obstacles_of(const LineGraph& graph, double first_height, std::optional<double> symmetry,
+                               std::span<const double> shifts);
+
+/// Returns the two ends of each piece.
+std::vector<std::vector<Point>> ends_of_pieces(const LineGraph& graph);
 
 /// Returns x of the vertices of lines at this y on the border of the domain, ascending.
 std::vector<double> feet_on_border(const LineGraph& graph, double y);

@@ -20,6 +20,7 @@ namespace lamina::pipeline {
 namespace {
 
 constexpr std::size_t columns = 1024;
+constexpr double kept_share = 0.35;  ///< of the channel, beside each of its sides
 
 /// Fills columns without outlines, between elements that are one behind the other, with what is on both sides.
 void fill_gaps(geometry::Channel& channel) {
@@ -43,7 +44,6 @@ struct Lane {
 };
 
 Lane lane_in(const geometry::Channel& channel, double pitch) {
-    constexpr double kept_share = 0.35;  // of the channel, beside each of its sides
     const double run = std::min(pitch, static_cast<double>(columns) * channel.width);
     Lane lane;
     lane.run_out = static_cast<std::size_t>(std::ceil(run / channel.width));
@@ -81,6 +81,21 @@ std::vector<double> smooth_curve(const Lane& lane, double smoothed_columns) {
     return y;
 }
 
+/// Returns sizes along a border that has lines beside it: sizes that grow from layers do not know of these, and edges as
+/// long as what is kept to both sides cut no corner of the curve that far.
+std::vector<SizeSource> sources_along(const geometry::Channel& channel, const Lane& lane, std::span<const double> y) {
+    constexpr std::size_t columns_apart = 8;
+    std::vector<SizeSource> sources;
+    for (std::size_t first = 0; first < columns; first += columns_apart) {
+        const std::size_t last = first + columns_apart - 1;
+        double gap = HUGE_VAL;
+        for (std::size_t k = first; k <= last; ++k) gap = std::min(gap, channel.high[k] - channel.low[k]);
+        const auto at = [&](std::size_t k) { return Point{channel.middle(k), y[k + lane.run_out]}; };
+        sources.push_back({.a = at(first), .b = at(last), .size = kept_share * gap});
+    }
+    return sources;
+}
+
 /// Adds the copies of items, moved by whole numbers of pitches, that may count in the domain; none outside a row.
 template <class Item, class BoxOf, class Moved>
 void add_copies(const decoupling::FarField& far_field, BoxOf&& box_of, Moved&& moved, std::vector<Item>& items) {
@@ -96,24 +111,45 @@ void add_copies(const decoupling::FarField& far_field, BoxOf&& box_of, Moved&& m
     }
 }
 
+/// Throws OptionError with this text, which holds x, where a channel is closed.
+void require_open(const geometry::Channel& channel, const char* option, fmt::format_string<double> text) {
+    const std::size_t k = channel.narrowest();
+    if (!(channel.high[k] > channel.low[k])) throw OptionError(option, fmt::format(text, channel.middle(k)));
+}
+
 }  // namespace
 
-std::vector<Point> border_below(std::span<const std::vector<Point>> fronts, const decoupling::FarField& far_field) {
+RowBorder border_below(std::vector<std::vector<Point>> fronts, std::span<const std::vector<Point>> lines,
+                       const decoupling::FarField& far_field) {
     constexpr double smoothed_share = 0.2;  // of the pitch
     constexpr double most_smoothed = 0.3;   // of the columns
     const double pitch = far_field.pitch;
     geometry::Channel channel = geometry::channel_below(fronts, pitch, columns);
     fill_gaps(channel);
-    if (const std::size_t k = channel.narrowest(); !(channel.high[k] > channel.low[k]))
-        throw OptionError("periodic",
-                          fmt::format("the layers of neighbouring blades close the channel between them at x = {:.4g}: "
-                                      "raise the pitch, or ask for thinner layers",
-                                      channel.middle(k)));
+    require_open(
+        channel, "periodic",
+        "the layers of neighbouring blades close the channel between them at x = {:.4g}: raise the pitch, or ask "
+        "for thinner layers");
+    if (!lines.empty()) {
+        // The curve may rise steeply beside an end, so that keeps its distance along x, too.
+        const double beside = 0.02 * pitch;
+        for (const std::vector<Point>& line : lines) {
+            const auto [left, right] = std::minmax(line.front(), line.back(), lexicographically_less);
+            fronts.push_back({{left.x - beside, left.y}, left, right, {right.x + beside, right.y}});
+        }
+        channel = geometry::channel_below(fronts, pitch, columns);
+        fill_gaps(channel);
+        require_open(
+            channel, "line",
+            "with their copies, one pitch above and below, lines close the channel between blades at x = {:.4g}: "
+            "leave a gap there, or move lines by a pitch");
+    }
     const Lane lane = lane_in(channel, pitch);
     const std::vector<double> y =
         smooth_curve(lane, std::min(smoothed_share * pitch / channel.width, most_smoothed * columns));
     const Box domain = far_field.box();
-    std::vector<Point> curve;
+    RowBorder border;
+    std::vector<Point>& curve = border.curve;
     for (std::size_t k = 0; k < y.size(); ++k) {
         const double x =
             channel.left + (static_cast<double>(k) - static_cast<double>(lane.run_out) + 0.5) * channel.width;
@@ -121,7 +157,8 @@ std::vector<Point> border_below(std::span<const std::vector<Point>> fronts, cons
     }
     curve.insert(curve.begin(), {domain.lower.x, curve.front().y});
     curve.push_back({domain.upper.x, curve.back().y});
-    return curve;
+    if (!lines.empty()) border.sources = sources_along(channel, lane, y);
+    return border;
 }
 
 std::vector<SizeSource> repeated_in_row(std::vector<SizeSource> sources, const decoupling::FarField& far_field) {

@@ -12,10 +12,16 @@
 
 namespace lamina::pipeline {
 
-/// Returns the border below a blade with these fronts of layers, from inlet to outlet: a smooth curve near the middle of
-/// the channel to the copy below, which runs along x ahead and behind. Throws OptionError where layers
-/// close the channel.
-std::vector<Point> border_below(std::span<const std::vector<Point>> fronts, const decoupling::FarField& far_field);
+/// The border between a blade and its copy below, from inlet to outlet.
+struct RowBorder {
+    std::vector<Point> curve;         ///< smooth, near the middle of the channel, along x ahead and behind
+    std::vector<SizeSource> sources;  ///< keep its edges out of lines
+};
+
+/// Returns the border below a blade with these fronts of layers and the lines beside it. Throws OptionError where layers or
+/// lines close the channel.
+RowBorder border_below(std::vector<std::vector<Point>> fronts, std::span<const std::vector<Point>> lines,
+                       const decoupling::FarField& far_field);
 
 /// Returns sources and all of their copies in the row that may count in the domain; outside a row the sources alone.
 std::vector<SizeSource> repeated_in_row(std::vector<SizeSource> sources, const decoupling::FarField& far_field);

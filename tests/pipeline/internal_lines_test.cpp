@@ -141,6 +141,16 @@ TEST(InternalLines, RandomOnesRoundRandomSectionsAreValid) {
     EXPECT_GE(made, 8);
 }
 
+/// A line shorter than the triangles there has two edges, since its ends are no double vertices.
+TEST(InternalLines, ShortTwoSidedOnesAreWallsToo) {
+    CaseOptions options = options_with({{.name = "vane", .points = {{2, 1}, {2.01, 1}}, .two_sided = true}});
+    options.layer.enabled = false;
+    const MeshResult result = generate_mesh({"naca:0012"}, options);
+    EXPECT_TRUE(check_mesh(result.mesh).valid());
+    ASSERT_NE(marker_of(result.mesh, "vane"), nullptr);
+    EXPECT_EQ(marker_of(result.mesh, "vane")->edges.size(), 4u);
+}
+
 TEST(InternalLines, MeshesAreTheSameOnAnyNumberOfThreads) {
     CaseOptions options = options_with({{.name = "rake", .points = {{1.1, -0.2}, {0.9, 0.5}}}});
     options.threads = 1;

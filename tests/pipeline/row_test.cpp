@@ -109,6 +109,45 @@ TEST(BladeRow, HoldsSeveralElements) {
     expect_periodic(mesh, 0.9);
 }
 
+/// Lines of any kind: the border runs between them and their copies, and the layers of neighbours give way to the copies.
+TEST(BladeRow, HoldsLines) {
+    std::mt19937 random(20261129);
+    const auto in = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+    std::size_t made = 0;
+    for (int trial = 0; trial < 24; ++trial) {
+        SCOPED_TRACE(trial);
+        const double pitch = in(0.5, 2);
+        CaseOptions options = row(pitch, in(-50, 50));
+        options.conditions.chord = 1;
+        options.layer.topology = trial % 2 ? LayerTopology::quads : LayerTopology::layered;
+        options.layer.enabled = trial % 5 != 0;
+        for (int k = 0; k < 1 + trial % 2; ++k) {
+            const Point a{in(-0.5, 1.5), in(-0.5, 0.5)};
+            options.lines.push_back({.name = std::string(1, static_cast<char>('a' + k)),
+                                     .points = {a, a + Point{in(-0.4, 0.4), in(-0.4, 0.4)}},
+                                     .two_sided = trial % 3 == 0});
+        }
+        try {
+            expect_periodic(generate_mesh({"naca:6412"}, options).mesh, pitch);
+            ++made;
+        } catch (const OptionError& error) {
+            EXPECT_EQ(error.option(), "line") << error.what();
+        }
+    }
+    EXPECT_GE(made, 16u);
+}
+
+TEST(BladeRow, LinesLeaveAGap) {
+    CaseOptions options = row(1);
+    options.lines = {{.name = "rake", .points = {{1.5, -0.2}, {1.5, 0.9}}}};
+    try {
+        generate_mesh({"naca:0012"}, options);
+        FAIL() << "no room is left between the line and its copy";
+    } catch (const OptionError& error) {
+        EXPECT_NE(std::string(error.what()).find("leave a gap there"), std::string::npos) << error.what();
+    }
+}
+
 /// Sizes of wakes and of the user go on at the other border.
 TEST(BladeRow, SizesRepeat) {
     CaseOptions options = row(0.7, 30, 50);
