@@ -93,6 +93,8 @@ void prepare_case(FlowSolver solver, SolverCaseOptions& options, MeshCase& mesh_
         throw OptionError("order", "the cells of a case are straight, but for those of pyfr");
     options.compressible = mesh_case.options.conditions.mach.has_value();
     validate(solver, options, mesh_case.options.conditions.mach);
+    if (mesh_case.options.far_field.pitch && mesh_case.options.conditions.mach.value_or(0) >= 1)
+        throw OptionError("mach", "must be below 1 at a row of blades");
     apply_preferences(solver, mesh_case);
     require_consistent(mesh_case);
     if (const LayerOptions& layer = mesh_case.options.layer;

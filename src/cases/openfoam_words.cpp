@@ -1,10 +1,13 @@
 // What the files of OpenFOAM's case say about this flow and this mesh.
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <lamina/io.hpp>
 
 #include "cases/words.hpp"
+#include "core/reproducible_math.hpp"
 #include "io/formats.hpp"
 #include "io/openfoam_span.hpp"
 
@@ -64,6 +67,10 @@ std::string cyclic_patches(const std::optional<BladeRow>& row) {
     return patches;
 }
 
+/// Returns whether the case is solved in steps of its own in each cell, from a free stream that nothing reaches from
+/// behind. rhoSimpleFoam diverges there.
+bool is_supersonic(const CaseFlow& flow) { return flow.compressible && flow.mach >= 1; }
+
 /// Adds the velocity and the pressure of the far field, or of the inlet and the outlet of a row.
 void add_outer_conditions(const CaseFlow& flow, Words& words) {
     if (flow.row) {
@@ -88,19 +95,22 @@ void add_outer_conditions(const CaseFlow& flow, Words& words) {
         patches);
     words["OUTER_PRESSURE"] = fmt::format(
         "// Allrun gives each face of the far field the pressure that belongs to the velocity there.\n"
-        "    {}\n    {{\n        type            freestreamPressure;\n        freestreamValue uniform 0;\n    }}",
-        patches);
+        "    {}\n    {{\n        type            freestreamPressure;\n        freestreamValue uniform {};\n"
+        "        supersonic      {};\n    }}",
+        patches, words["START_PRESSURE"], is_supersonic(flow) ? "yes" : "no");
 }
 
 /// Adds what says which solver it is, and what a gas needs.
 void add_medium(const CaseFlow& flow, Words& words) {
-    words["APPLICATION"] = flow.time ? "pimpleFoam" : flow.compressible ? "rhoSimpleFoam" : "simpleFoam";
+    words["APPLICATION"] = flow.time             ? "pimpleFoam"
+                           : is_supersonic(flow) ? "rhoPimpleFoam"
+                           : flow.compressible   ? "rhoSimpleFoam"
+                                                 : "simpleFoam";
     words["MACH"] = number(flow.compressible ? flow.mach : 0);
     words["TRANSONIC"] = flow.compressible && flow.mach > largest_low_mach ? "yes" : "no";
-    if (!flow.compressible) {
-        words["PRESSURE"] = "0";
-        return;
-    }
+    words["START_PRESSURE"] = words["PRESSURE"] = "0";
+    words["PRESSURE_DIMENSIONS"] = "[0 2 -2 0 0 0 0]";
+    if (!flow.compressible) return;
     // A gas of density 1 whose speed of sound is velocity / mach. OpenFOAM counts its energy from 298.15 K, where sums
     // of it round least.
     constexpr double heat_ratio = 1.4, temperature = 298.15, gas_constant = 8314.46261815324;
@@ -108,20 +118,47 @@ void add_medium(const CaseFlow& flow, Words& words) {
     const double pressure = sound_speed * sound_speed / heat_ratio, per_mass = pressure / temperature;
     words["PRESSURE"] = number(pressure);
     words["TEMPERATURE"] = number(temperature);
-    words["LEAST_TEMPERATURE"] = number(temperature / 2);
-    words["LARGEST_TEMPERATURE"] = number(2 * temperature);
+    if (is_supersonic(flow)) {
+        words["START_PRESSURE"] = words["PRESSURE"];
+        words["PRESSURE_DIMENSIONS"] = "[1 -1 -2 0 0 0 0]";
+    }
+    // At rest a gas has stagnation_ratio times the temperature of the free stream.
+    const double stagnation_ratio = 1 + 0.5 * (heat_ratio - 1) * flow.mach * flow.mach;
+    words["LEAST_TEMPERATURE"] = number(temperature / (is_supersonic(flow) ? 4 : 2));
+    words["LARGEST_TEMPERATURE"] = number(std::max(2.0, 1.5 * stagnation_ratio) * temperature);
     words["MOLAR_WEIGHT"] = number(gas_constant / per_mass);
     words["HEAT_CAPACITY"] = number(heat_ratio / (heat_ratio - 1) * per_mass);
     words["ALPHA_T_WALL"] =
         condition(flow.wall_functions ? "compressible::alphatWallFunction" : "fixedValue", "uniform 0");
 }
 
+/// Adds how the solver steps towards a steady state. In supersonic flow Courant numbers of 20 diverge, and so do corrections
+/// within a step or a pressure that is not relaxed.
+void add_steps(const CaseFlow& flow, Words& words) {
+    const bool local = is_supersonic(flow);
+    words["BOUNDED"] = local ? "" : "bounded ";
+    words["PRESSURE_CONVECTION"] = local ? "upwind" : "limitedLinear 1";
+    words["ALGORITHM"] = local ? "PIMPLE" : "SIMPLE";
+    words["CONSISTENT"] = local ? "no" : "yes";
+    words["LEAST_PRESSURE"] = local ? "0.01" : "0.1";
+    words["LARGEST_PRESSURE"] = local ? number(core::pow_reproducible(1 + 0.2 * flow.mach * flow.mach, 3.5)) : "2";
+    words["GAS_PRESSURE_RELAXATION"] = local ? "0.3" : "0.6";
+    words["LOCAL_STEPS"] = local ? R"(    // The step of each cell.
+    maxCo           10;
+    maxDeltaT       1;
+    rDeltaTSmoothingCoeff 0.1;
+    rDeltaTDampingCoeff 1;
+)"
+                                 : "";
+}
+
 /// Adds what makes a case steady, or one in time.
 void add_time_scheme(const CaseFlow& flow, Words& words) {
     const bool unsteady = flow.time.has_value();
     const TimeSteps time = flow.time.value_or(TimeSteps{});
-    words["TIME_SCHEME"] =
-        unsteady ? "#include        \"march\"\n    default         $timeScheme;" : "default         steadyState;";
+    words["TIME_SCHEME"] = unsteady
+                               ? "#include        \"march\"\n    default         $timeScheme;"
+                               : fmt::format("default         {};", is_supersonic(flow) ? "localEuler" : "steadyState");
     words["MARCH"] =
         unsteady ? "#include        \"march\"         // the step, and from when on fields are averaged\n" : "";
     words["TIME_STEP"] = unsteady ? "$timeStep" : "1";
@@ -206,7 +243,8 @@ Words openfoam_words(const CaseFlow& flow) {
     words["SYMMETRIES"] = symmetry_patches(flow) + cyclic_patches(flow.row);
     words["ENDS"] = flow.axisymmetric ? "\"(z0|z1)\"" : "frontAndBack";
     words["ENDS_TYPE"] = flow.axisymmetric ? "wedge" : "empty";
-    words["VORTEX"] = flow.symmetries.empty() && flow.outer_walls.empty() && !flow.row ? "yes" : "no";
+    words["VORTEX"] =
+        flow.symmetries.empty() && flow.outer_walls.empty() && !flow.row && !is_supersonic(flow) ? "yes" : "no";
     words["WALL_SURFACES"] = wall_surfaces(flow.walls);
     words["VELOCITY_VECTOR"] = vector(u, v);
     words["VELOCITY"] = number(flow.velocity);
@@ -216,7 +254,6 @@ Words openfoam_words(const CaseFlow& flow) {
     // At each step lift swings by 0.2 per degree before it settles.
     constexpr double step_of_angles = 1;
     words["ANGLES"] = angles_of(flow, step_of_angles);
-    add_outer_conditions(flow, words);
     words["DRAG_DIRECTION"] = vector(flow.direction.x, flow.direction.y);
     words["LIFT_DIRECTION"] = vector(-flow.direction.y, flow.direction.x);
     // Lift acts a quarter of the chord behind the nose of a thin section.
@@ -226,6 +263,8 @@ Words openfoam_words(const CaseFlow& flow) {
     words["MOMENT_POINT"] = vector(flow.moment_point.x, flow.moment_point.y);
     add_time_scheme(flow, words);
     add_medium(flow, words);
+    add_outer_conditions(flow, words);
+    add_steps(flow, words);
     add_turbulence(flow, words);
     add_adjoint(flow, words);
     return words;

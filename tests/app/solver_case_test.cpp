@@ -224,10 +224,9 @@ TEST(SolverCaseCommand, RefusesWhatItCannotDo) {
     expect_refused(folder, {"case", "openfoam", "naca:0012", "--reynolds", "1e6", "-o", "c", "--turbulence", "ke"},
                    usage, "option --turbulence");
     // Before the mesh is made: one of so many triangles would be refused, too.
-    expect_refused(
-        folder,
-        {"case", "openfoam", "naca:0012", "--reynolds", "1e6", "-o", "c", "--mach", "2", "--max-triangles", "1"}, usage,
-        "option --mach");
+    expect_refused(folder,
+                   {"case", "pyfr", "naca:0012", "--reynolds", "5e3", "-o", "c", "--mach", "2", "--max-triangles", "1"},
+                   usage, "option --mach");
     // Files of an earlier case stay as they are, and so do inputs.
     ASSERT_EQ(run_lamina(folder, small_case("su2")).exit_code, 0);
     expect_refused(folder, small_case("su2"), usage, "exists");
