@@ -85,7 +85,7 @@ TEST(PolarCommand, WritesThePolarOfTheFlowAndSaysWhereItIsStalled) {
     EXPECT_EQ(stalled.exit_code, mesh_failed);
     EXPECT_NE(stalled.err.find("2 of 2 angles are not steady"), std::string::npos) << stalled.err;
     EXPECT_NE(folder.read("two/polar.csv").find(",stalled,no"), std::string::npos);
-    const std::string caution = "layers do not displace this flow: lift is";
+    const std::string caution = "layers do not displace this flow: its lift is";
     EXPECT_NE(stalled.out.find(caution), std::string::npos) << stalled.out;
     EXPECT_EQ(run.out.find(caution), std::string::npos) << run.out;
     EXPECT_EQ(nlohmann::json::parse(folder.read("two/polar.json"))["undisplaced"], true);
