@@ -30,7 +30,8 @@ struct FoundFlow {
 /// Returns whether there are layers, and they do not displace the flow.
 bool is_undisplaced(const FoundFlow& found);
 /// What is to be said of such flows, in a line.
-inline constexpr const char* undisplaced_line = "layers do not displace this flow: its lift is too high, by up to a fifth on the sections that were measured\n";
+inline constexpr const char* undisplaced_line =
+    "layers do not displace this flow: its lift is too high, by up to a fifth on the sections that were measured\n";
 
 /// Returns the bodies as one blade of a row, where the options ask for it.
 Geometry in_row(Geometry geometry, const CaseOptions& options);
