@@ -81,17 +81,18 @@ struct MorphResult {
 };
 
 /// Moves the wall vertices in the order of MorphMap::walls() to these points, or in a straight line as far as all cells
-/// stay counter-clockwise. Throws InputError for a wrong number of points, for numbers that are not finite and for
-/// neighbours at one place, and MeshError, with the cell that stops it, where it gets nowhere or only to a fraction
-/// that is not asked for.
+/// stay counter-clockwise. Throws InputError for a wrong number of points, for numbers that are not finite, for
+/// neighbours at one place and for bodies that would cross, and MeshError, with the cell that stops it, where it gets
+/// nowhere or only to a fraction that is not asked for.
 LAMINA_EXPORT MorphResult morph(const MorphMap& map, std::span<const Point> wall, const MorphOptions& options = {});
 
 /// Returns the wall vertices on other shapes of the bodies, which are matched in their order. Between two corners they
-/// divide the arc length as they do in the mesh, on a spline through the points of the shape. Walls with ends stay.
-/// Throws InputError for another number of bodies, and where corners appear or vanish.
+/// divide the arc length as they do in the mesh, on a spline through the points of the shape. Kinks, corners of at most
+/// 60 degrees, may appear, and get a vertex, and vanish. Walls with ends stay.
+/// Throws InputError for another number of bodies, and where sharp corners appear or vanish.
 LAMINA_EXPORT std::vector<Point> wall_points_on(const MorphMap& map, const Geometry& shape);
-/// Returns the wall vertices with the bodies changed: elements are the markers of the walls. Throws what transformed()
-/// throws, and InputError for changes that take or add points (flaps).
+/// Returns the wall vertices with the bodies changed: elements are the markers of the walls. Those of deflected flaps are
+/// what wall_points_on() returns. Throws what transformed() throws, and what wall_points_on() throws.
 LAMINA_EXPORT std::vector<Point> moved_wall_points(const MorphMap& map, std::span<const Transformation> changes);
 
 /// Returns the wall vertices with displacements from a CSV file added: lines "vertex,dx,dy", of which the first may be

@@ -46,7 +46,7 @@ class MorphMap:
         """Returns the wall points on other shapes, one per body in the order of the mesh: files, names or arrays.
 
         Vertices keep their shares of the arc length between corners. Raises InputError for another number of bodies, and
-        where corners appear or vanish.
+        where sharp corners, above 60 degrees, appear or vanish.
         """
         return self._map.walls_on(section_list(shape)[0])
 

@@ -18,7 +18,7 @@
 #include "mesh/adjacency.hpp"
 #include "mesh/cell_orientation.hpp"
 #include "mesh/cell_text.hpp"
-#include "morphing/wall_edges.hpp"
+#include "morphing/bodies.hpp"
 
 namespace lamina::morphing {
 
@@ -66,6 +66,15 @@ void require_wall(const MorphMap& map, std::span<const Point> wall) {
         if (wall[edge.a.index()] == wall[edge.b.index()])
             throw InputError({.at = wall[edge.a.index()], .points = {edge.a.index(), edge.b.index()}},
                              "two neighbours of a wall move to one place");
+}
+
+/// Throws InputError where an outline would cross itself or another one: that says more than the cell that turns over.
+void require_bodies_apart(const MorphMap& map, std::span<const Point> wall) {
+    try {
+        check_simple(as_geometry(closed_bodies(map), wall));
+    } catch (const InputError& error) {
+        throw InputError({.at = error.place().at}, "the walls would cross or touch where they move to");
+    }
 }
 
 /// Returns the wall points a share of their way.
@@ -145,12 +154,14 @@ MorphResult morph(const MorphMap& map, std::span<const Point> wall, const MorphO
     MorphResult result = move_by(map, wall);
     if (options.incremental) go_on_by_further_maps(map, wall, result);
     if (!result.stop) return result;
-    if (!options.as_far_as_possible || result.fraction == 0)
+    if (!options.as_far_as_possible || result.fraction == 0) {
+        require_bodies_apart(map, wall);
         throw MeshError(
             fmt::format("the motion can be made to {:.3g} % alone: beyond that, {} at ({:.6g}, {:.6g}) turns "
                         "over",
                         100 * result.fraction, result.stop->description, result.stop->at.x, result.stop->at.y),
             result.stop->at);
+    }
     return result;
 }
 

@@ -7,10 +7,10 @@
 #include <lamina/error.hpp>
 
 #include "core/text.hpp"
+#include "morphing/bodies.hpp"
 #include "morphing/complex.hpp"
 #include "morphing/motion_field.hpp"
 #include "morphing/rays.hpp"
-#include "morphing/wall_edges.hpp"
 #include "morphing/wall_motion.hpp"
 
 namespace lamina {

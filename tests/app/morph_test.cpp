@@ -229,6 +229,7 @@ TEST(MorphCommand, RefusesWhatItCannotUse) {
     refused({"--to", "naca:0012:100", "naca:2412:100"}, bad_input, "");
     refused({"--to", "naca:0012:101:blunt"}, bad_input, "corners appear or vanish");
     refused({"--transform", "flap:rotate:5"}, usage, "flap");
+    refused({"--transform", "airfoil:flap:80:0.7,0", "--to", "naca:0012:100"}, mesh_failed, "turns over");
     expect_refused(folder, {"morph", "mesh.vtu", "--transform", "all:shift:0,1", "-o", "mesh.vtu"}, usage,
                    "would replace");
 }

@@ -216,7 +216,7 @@ TEST(Morph, GoesOnByFurtherMaps) {
     EXPECT_EQ(morph(map, far, {.incremental = true}).fraction, 1);
     // Where bodies meet no number of maps gets through.
     const std::vector<Point> into = moved_wall_points(map, std::vector{parse_transformation("flap:shift:-0.2,0.03")});
-    EXPECT_THROW(morph(map, into, {.incremental = true}), MeshError);
+    EXPECT_THROW(morph(map, into, {.incremental = true}), InputError);
     const MorphResult part = morph(map, into, {.as_far_as_possible = true, .incremental = true});
     EXPECT_LT(part.fraction, 1);
     expect_valid(map, part.points);
@@ -249,7 +249,7 @@ TEST(Morph, RefusesWallsThatAreNone) {
     EXPECT_THROW(morph(map, wall), InputError);
     // Both sides exchanged: the outline crosses itself.
     const auto crossed = moved_walls(map, [](Point p) { return Point{p.x, p.x > 0.5 ? -p.y : p.y}; });
-    EXPECT_THROW(morph(map, crossed), MeshError);
+    EXPECT_THROW(morph(map, crossed), InputError);
 }
 
 }  // namespace

@@ -49,6 +49,43 @@ TEST(WallTargets, FollowTransformationsOfElements) {
     EXPECT_THROW(moved_wall_points(map, unknown), OptionError);
 }
 
+/// Returns the distance of a point from a closed outline.
+double distance_from(std::span<const Point> outline, Point p) {
+    double least = HUGE_VAL;
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+        const Point a = outline[i], edge = outline[(i + 1) % outline.size()] - a;
+        const double share = std::clamp(dot(p - a, edge) / squared_length(edge), 0.0, 1.0);
+        least = std::min(least, distance(p, a + share * edge));
+    }
+    return least;
+}
+
+TEST(WallTargets, KinksMayAppearAndVanish) {
+    const std::vector<Transformation> deflection{parse_transformation("airfoil:flap:20:0.7,0")};
+    const Geometry plain = make_geometry({naca_airfoil("0012", 400)});
+    const Geometry flapped = transformed(plain, deflection);
+    for (const auto& [from, onto] : {std::pair(plain, flapped), std::pair(flapped, plain)}) {
+        const Mesh mesh = generate_mesh(from, options_to_morph()).mesh;
+        const std::vector<Point> wall = wall_points_on(MorphMap(mesh), onto);
+        // No edge of the wall, which are up to 0.02 long, cuts a kink off: one of 20 degrees would lose 0.0017.
+        for (const Point p : wall) EXPECT_LT(distance_from(onto.elements[0].points, p), 1e-4);
+        for (const Point p : onto.elements[0].points) EXPECT_LT(distance_from(wall, p), 2e-4);
+    }
+}
+
+TEST(WallTargets, FollowDeflectedFlaps) {
+    const Mesh mesh = generate_mesh({"naca:0012"}, options_to_morph()).mesh;
+    const MorphMap map(mesh);
+    const std::vector<Point> wall = moved_wall_points(map, std::vector{parse_transformation("airfoil:flap:5:0.7,0")});
+    const double turn = 5 * 3.14159265358979 / 180;
+    const auto tail = std::max_element(wall.begin(), wall.end(), [](Point a, Point b) { return a.x < b.x; });
+    EXPECT_NEAR(tail->x, 0.7 + 0.3 * std::cos(turn), 1e-6);
+    EXPECT_NEAR(tail->y, -0.3 * std::sin(turn), 1e-6);
+    const MorphResult result = morph(map, wall);
+    expect_valid(map, result.points);
+    EXPECT_LT(compare_morphed(map, result.points).max_first_height_change, 0.05);
+}
+
 TEST(WallTargets, NeedTheSameBodiesAndCorners) {
     const Mesh mesh = mesh_to_morph({"naca:0012:100"});
     const MorphMap map(mesh);
