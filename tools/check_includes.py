@@ -9,6 +9,7 @@
 - app/ includes public headers (<lamina/...>), its own headers, and those of tables of options (PROGRAM_HEADERS) alone.
 - A public header includes public headers alone, of its own folder or of those that this folder depends on.
 - Inside a folder headers do not include each other in a circle.
+- Stages get their own options: only the sources of src/pipeline in WHOLE_OPTIONS take CaseOptions, the options of all.
 - The drawing docs/images/folders.svg shows these dependencies.
 
 Prints one line for each violation; the exit status is 1 where there is one. --table prints who may include whom, --dot
@@ -31,6 +32,9 @@ ROOMS = {
     "delaunay": ["triangulate", "constrain", "refine", "queries", "dynamic", "pieces"],
     "layers": ["wake", "directions", "heights", "room", "cells", "border"],
 }
+
+# The sources of src/pipeline that see the options of all stages: what is public, what checks and derives them, and run().
+WHOLE_OPTIONS = {"budget", "compressible_flow", "curve_mesh", "forecast", "options", "pipeline", "presets", "refined", "run"}
 
 # The private headers that app/ may include: its tables of options have rows of their own.
 PROGRAM_HEADERS = {"core/option_builders.hpp", "core/suggestion.hpp"}
@@ -125,6 +129,15 @@ def check_file(file, folder, allowed):
         elif folder == target and not is_room_allowed(ROOMS.get(folder, []), inside.parts[1], path.split("/")[1]):
             yield f'{where}: {folder}/{inside.parts[1]} may not include "{path}"'
 
+def check_options():
+    """Yields the sources of stages that take the options of all stages."""
+    for file in sorted((SOURCE / "pipeline").rglob("*.[ch]pp")):
+        if file.stem in WHOLE_OPTIONS:
+            continue
+        for number, line in enumerate(file.read_text().splitlines(), 1):
+            if re.search(r"\bCaseOptions\b(?!::)", line.split("//")[0]):
+                yield f"{file.relative_to(REPOSITORY)}:{number}: a stage takes CaseOptions: hand it its own options"
+
 def check_public(file, allowed):
     folder = owner(file.stem)
     for number, kind, path in includes(file):
@@ -194,6 +207,7 @@ def main():
     for file in sorted(PUBLIC.glob("*.hpp")):
         violations += check_public(file, allowed)
     violations += circles()
+    violations += check_options()
     violations += check_drawing("\n".join(as_dot(allowed)))
     print("\n".join(violations) or "includes run one way")
     return 1 if violations else 0

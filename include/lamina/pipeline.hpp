@@ -32,6 +32,8 @@ namespace lamina {
 /// Options of the markers.
 struct AssembleOptions {
     bool base_marker = false;  ///< gives the base of a blunt trailing edge a marker of its own, NAME_base
+    /// Whether the far field is two markers: `inlet`, where a uniform flow at the angle of attack enters, and `outlet`.
+    bool inlet_outlet = false;
 };
 
 /// A line inside the domain that becomes edges of the mesh with a marker of its own: a rake, a sensor, an actuator disc, a
@@ -67,9 +69,7 @@ struct CaseOptions {
     /// most one of both is given.
     std::optional<std::size_t> vertices{};
     std::optional<std::size_t> cells{};  ///< as vertices
-    /// Whether the far field is two markers: `inlet`, where a uniform flow at the angle of attack enters, and `outlet`.
-    bool inlet_outlet = false;
-    std::vector<InternalLine> lines{};  ///< lines inside the domain
+    std::vector<InternalLine> lines{};   ///< lines inside the domain
     /// The order of the cells: 1 makes straight ones, and up to max_cell_order curved ones that follow the walls (MeshResult::curved).
     /// Needs layers of topology quads or layered, or none; excludes sheets and rows of blades.
     unsigned order = 1;
@@ -82,7 +82,8 @@ struct CaseOptions {
 LAMINA_EXPORT void validate(const CaseOptions& options);
 /// Returns ground and tunnel walls, or the row, of the domain round this geometry, as solve_flow() takes them. Throws
 /// OptionError where the flow is to cross them.
-LAMINA_EXPORT FlowWalls flow_walls(const Geometry& geometry, const CaseOptions& options);
+LAMINA_EXPORT FlowWalls flow_walls(const Geometry& geometry, const FlowConditions& conditions,
+                                   const FarFieldOptions& domain);
 /// Returns the options of a mesh that is similar to that of these options, with all lengths divided by `ratio`; below 1
 /// the mesh is coarser. Members of a family for a study of convergence are made so.
 ///

@@ -60,7 +60,7 @@ std::vector<FoundFlow> find_flows(Geometry geometry, const CaseOptions& options,
                                   std::span<const FlowConditions> conditions, const TransitionOptions& transition) {
     geometry = in_row(std::move(geometry), options);
     const ReferenceConditions reference = reference_conditions(options.conditions, reference_box(geometry));
-    const FlowWalls walls = flow_walls(geometry, options);
+    const FlowWalls walls = flow_walls(geometry, options.conditions, options.far_field);
     const Geometry prepared = prepare_surfaces(geometry, options.surface, reference.chord);
     const bool coupled = can_be_coupled(prepared, reference, walls);
     if (!coupled) require_default(transition);

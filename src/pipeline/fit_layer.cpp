@@ -62,43 +62,45 @@ std::vector<layers::Circle> circles_round_unexcused(std::span<const mesh::Narrow
     return circles;
 }
 
-/// Returns the sizes by which outer walls are divided: those of the bodies' walls and of the sources, which grow as the
+/// The sizes by which walls of the domain are divided: those of the bodies' walls and of the sources, which grow as the
 /// spacing of walls may.
-SizeField size_of_outer_walls(SizingOptions sizing, double gradation, const Geometry& geometry,
-                              const ReferenceConditions& conditions, const Box& domain,
-                              std::span<const SizeSource> finer) {
-    const sizing::SizedBodies bodies = sized_bodies(geometry, conditions);
-    std::vector<SizeSource> sources = sizing::gather_size_requests(sizing, bodies, bodies.walls, domain).at_borders;
-    sources.insert(sources.end(), finer.begin(), finer.end());
-    sizing.background.reset();
-    sizing.gradation = gradation;
-    return sizing::make_size_field(bodies.walls, sources, sizing, conditions.chord, domain);
-}
+struct OuterWallSizes {
+    const SizingOptions& options;
+    double gradation;
+    std::vector<SizeSource> finer{};  ///< where they become finer than bodies ask for
 
-/// Makes rays on walls, within their far field. `finer` are sources by which outer walls become finer than bodies ask
-/// for.
-FittedLayer grow_within(const CaseOptions& options, Geometry geometry, const ReferenceConditions& conditions,
-                        const layers::LayerGrowth& growth, std::span<const SizeSource> finer) {
+    SizeField field(const Geometry& geometry, const ReferenceConditions& conditions, const Box& domain) const {
+        const sizing::SizedBodies bodies = sized_bodies(geometry, conditions);
+        std::vector<SizeSource> sources =
+            sizing::gather_size_requests(options, bodies, bodies.walls, domain).at_borders;
+        sources.insert(sources.end(), finer.begin(), finer.end());
+        SizingOptions sizing = options;
+        sizing.background.reset();
+        sizing.gradation = gradation;
+        return sizing::make_size_field(bodies.walls, sources, sizing, conditions.chord, domain);
+    }
+};
+
+/// Makes rays on walls, within their far field.
+FittedLayer grow_within(const DomainRequest& domain, const LayerRequest& layer, const OuterWallSizes& sizes,
+                        Geometry geometry, const ReferenceConditions& conditions) {
+    const layers::LayerGrowth& growth = layer.growth;
     decoupling::FarField far_field =
-        decoupling::place_far_field(bounding_box(geometry), conditions.chord, options.far_field);
+        decoupling::place_far_field(bounding_box(geometry), conditions.chord, domain.far_field);
     std::vector<OuterWallFacts> outer_walls =
-        outer_wall_facts(far_field, options.far_field, geometry, options.layer, conditions, growth);
-    LineGraph lines = arrange_lines(options.lines, far_field, geometry);
+        outer_wall_facts(far_field, domain.far_field, geometry, layer.options, conditions, growth);
+    LineGraph lines = arrange_lines(domain.lines, far_field, geometry);
     std::vector<layers::OuterWall> divided;
     if (!outer_walls.empty())
-        divided =
-            divide_outer_walls(outer_walls, far_field,
-                               size_of_outer_walls(options.sizing, wall_gradation(options.sizing, options.fineness),
-                                                   geometry, conditions, far_field.box(), finer),
-                               lines);
+        divided = divide_outer_walls(outer_walls, far_field, sizes.field(geometry, conditions, far_field.box()), lines);
     layers::Obstacles obstacles;
     if (!lines.pieces.empty())
         obstacles =
             obstacles_of(lines, growth.first_height, geometry::is_cut(geometry) ? geometry.symmetry : std::nullopt,
                          geometry::shifts_in_row(geometry));
-    layers::Rays rays = layers::grow_rays(geometry, options.layer, growth, divided, obstacles);
-    if (options.layer.enabled && !geometry.pitch)
-        require_room_for_layers(geometry, layers::fronts(rays), far_field, options.layer, growth);
+    layers::Rays rays = layers::grow_rays(geometry, layer.options, growth, divided, obstacles);
+    if (layer.options.enabled && !geometry.pitch)
+        require_room_for_layers(geometry, layers::fronts(rays), far_field, layer.options, growth);
     std::vector<double> front = rays.front;
     return {.geometry = std::move(geometry),
             .conditions = conditions,
@@ -154,9 +156,10 @@ void request_in_row(std::vector<std::vector<Point>> fronts, FittedLayer& fitted)
 
 /// Requests the sizes that the options, the fronts of the rays and the wakes behind their layers ask for. Where a background
 /// mesh decides on sizes, wakes request them of borders alone.
-void request_sizes(SizingOptions options, FittedLayer& fitted) {
+void request_sizes(FittedLayer& fitted) {
     const layers::Rays& rays = fitted.rays;
-    const std::vector<ElementWake>& wakes = fitted.wakes;
+    const std::vector<ElementWake>& wakes = fitted.sizes.wakes;
+    SizingOptions options = fitted.sizes.options;
     std::vector<SizeSource> along_wakes;
     for (std::size_t e = 0; e < wakes.size(); ++e) {
         const std::size_t first = along_wakes.size();
@@ -207,12 +210,12 @@ bool all_layers_fit(const layers::Rays& rays) {
 /// Prepares the walls anew, with a finer spacing where the layer's border would be divided: rows of cells would end in fans
 /// below division points (docs/decisions/0009). `grow` makes rays on walls. Finer walls ask for finer ones beside them, which
 /// three rounds of halving reach.
-void refine_walls_below_borders(const SurfaceOptions& surface, double least_gradation, PreparedWalls& walls,
+void refine_walls_below_borders(double least_gradation, PreparedWalls& walls,
                                 const std::function<FittedLayer(surface::PreparedSurfaces)>& grow,
                                 std::vector<SizeSource>& on_outer_walls, FittedLayer& fitted) {
     constexpr int max_rounds = 3;
     for (int round = 0; round < max_rounds; ++round) {
-        layers::BorderOptions border = border_with_sources(fitted.border, fitted.requests.at_borders);
+        layers::BorderOptions border = border_with_sources(fitted.sizes.border, fitted.requests.at_borders);
         border.gradation = std::max(border.gradation, least_gradation);
         const std::vector<geometry::WallSpacing> finer = layers::wall_spacings(fitted.rays, border);
         if (finer.empty()) return;
@@ -224,7 +227,7 @@ void refine_walls_below_borders(const SurfaceOptions& surface, double least_grad
                 on_outer_walls.push_back({.a = wall.a, .b = wall.b, .size = wall.spacing});
         }
         surface::PreparedSurfaces prepared =
-            surface::prepare_with_curves(walls.given, surface, walls.limits, fitted.conditions.chord);
+            surface::prepare_with_curves(walls.given, walls.options, walls.limits, fitted.conditions.chord);
         // The rest are stretches that keep their given points.
         if (same_points(prepared.geometry, fitted.geometry) && on_outer_walls.size() == sources) return;
         fitted = grow(std::move(prepared));
@@ -262,7 +265,7 @@ bool end_obtuse_columns(LayerTopology topology, const DecompositionOptions& deco
     constexpr std::uint16_t far_from_wall = 10, above_first = 1;
     const auto obtuse_cells_of = [&](const layers::Rays& rays) {
         const layers::Layer layer =
-            layers::close_border(rays, border_with_sources(fitted.border, fitted.requests.at_borders));
+            layers::close_border(rays, border_with_sources(fitted.sizes.border, fitted.requests.at_borders));
         return layers::obtuse_cells(layer, fill_layer(layer, topology, decomposition), layers::largest_layer_angle_deg);
     };
     std::vector<layers::ObtuseCell> fewest = obtuse_cells_of(fitted.rays);
@@ -274,38 +277,42 @@ bool end_obtuse_columns(LayerTopology topology, const DecompositionOptions& deco
 
 }  // namespace
 
-FittedLayer fit_layer(PreparedWalls walls, const CaseOptions& options, const ReferenceConditions& conditions,
-                      const layers::LayerGrowth& growth, std::vector<ElementWake> wakes) {
-    const LayerOptions& layer = options.layer;
-    const layers::BorderOptions border = border_options(options.sizing, options.refine, conditions.chord, {});
-    std::vector<SizeSource> on_outer_walls;
+PreparedWalls prepare_walls(const Geometry& given, const SurfaceOptions& options, surface::SpacingLimits limits,
+                            double chord) {
+    PreparedWalls walls{given, options, std::move(limits)};
+    walls.prepared = surface::prepare_with_curves(given, options, walls.limits, chord);
+    return walls;
+}
+
+FittedLayer fit_layer(PreparedWalls walls, const LayerRequest& layer, const DomainRequest& domain,
+                      const OuterSizes& sizes, const ReferenceConditions& conditions) {
+    const LayerOptions& options = layer.options;
+    OuterWallSizes on_outer_walls{sizes.options, walls.limits.gradation};
     const auto grow = [&](surface::PreparedSurfaces prepared) {
-        FittedLayer fitted = grow_within(options, std::move(prepared.geometry), conditions, growth, on_outer_walls);
+        FittedLayer fitted = grow_within(domain, layer, on_outer_walls, std::move(prepared.geometry), conditions);
         fitted.curves = std::move(prepared.curves);
-        fitted.wakes = wakes;
-        fitted.border = border;
-        request_sizes(options.sizing, fitted);
+        fitted.sizes = sizes;
+        request_sizes(fitted);
         return fitted;
     };
     FittedLayer fitted = grow(std::move(walls.prepared));
-    if (layer.enabled && layers::uses("refine_walls"))
-        refine_walls_below_borders(options.surface, min_wall_gradation / options.fineness, walls, grow, on_outer_walls,
+    if (options.enabled && layers::uses("refine_walls"))
+        refine_walls_below_borders(min_wall_gradation / layer.growth.fineness, walls, grow, on_outer_walls.finer,
                                    fitted);
     // Where all layers are made, nothing is in their way; equal numbers of layers are a promise.
-    if (layer.enabled && !layer.equal_fans && !all_layers_fit(fitted.rays) && layers::uses("end_obtuse") &&
-        end_obtuse_columns(layer.topology, options.decomposition, fitted)) {
+    if (options.enabled && !options.equal_fans && !all_layers_fit(fitted.rays) && layers::uses("end_obtuse") &&
+        end_obtuse_columns(options.topology, layer.decomposition, fitted)) {
         count_thinned(fitted);
-        request_sizes(options.sizing, fitted);
+        request_sizes(fitted);
     }
     return fitted;
 }
 
 layers::Layer close_border(const FittedLayer& fitted) {
-    return layers::close_border(fitted.rays, border_with_sources(fitted.border, fitted.requests.at_borders));
+    return layers::close_border(fitted.rays, border_with_sources(fitted.sizes.border, fitted.requests.at_borders));
 }
 
-bool make_room_at_narrow_triangles(std::span<const mesh::NarrowTriangle> narrow, bool thin, const SizingOptions& sizing,
-                                   FittedLayer& fitted) {
+bool make_room_at_narrow_triangles(std::span<const mesh::NarrowTriangle> narrow, bool thin, FittedLayer& fitted) {
     // Where no layer is thinned, the borders' edges become this share of the circles' radii.
     constexpr double edge_share = 0.3;
     if (!fitted.rays.enabled || narrow.empty() || !layers::uses("make_room")) return false;
@@ -317,7 +324,7 @@ bool make_room_at_narrow_triangles(std::span<const mesh::NarrowTriangle> narrow,
         if (ends[k] == 0) fitted.short_edges.push_back({.a = at, .b = at, .size = edge_share * places[k].radius});
     }
     count_thinned(fitted);
-    request_sizes(sizing, fitted);
+    request_sizes(fitted);
     return true;
 }
 

@@ -21,8 +21,29 @@ namespace lamina::pipeline {
 /// Walls as they are given and as they are prepared, with the limits on their spacing.
 struct PreparedWalls {
     const Geometry& given;
-    surface::PreparedSurfaces prepared;
+    const SurfaceOptions& options;
     surface::SpacingLimits limits;
+    surface::PreparedSurfaces prepared{};
+};
+
+/// What the layer is to be.
+struct LayerRequest {
+    const LayerOptions& options;
+    const DecompositionOptions& decomposition;  ///< of layers of LayerTopology::delaunay
+    const layers::LayerGrowth& growth;          ///< that of the options, or of the flow
+};
+
+/// What is round the bodies.
+struct DomainRequest {
+    const FarFieldOptions& far_field;
+    std::span<const InternalLine> lines;
+};
+
+/// What the edges beyond the layer follow from.
+struct OuterSizes {
+    SizingOptions options;             ///< with the sources that lines and shocks add to those given
+    std::vector<ElementWake> wakes{};  ///< of the flow, one per element or none
+    layers::BorderOptions border{};    ///< how the layer's border is divided, but for the sources of the requests
 };
 
 /// Rays on walls, of which close_border() makes the layer, and the sizes that their fronts and the options request.
@@ -34,9 +55,8 @@ struct FittedLayer {
     layers::Rays rays;
     LineGraph lines{};                          ///< those inside the domain
     std::vector<surface::CurvedEdge> curves{};  ///< of the walls, for curved cells
+    OuterSizes sizes{};
     sizing::SizeRequests requests{};
-    std::vector<ElementWake> wakes{};       ///< of the flow, one per element or none
-    layers::BorderOptions border{};         ///< how the border is divided, but for the sources of the requests
     std::vector<double> first_front{};      ///< of the rays, before any was shortened
     std::size_t thinned_rays = 0;           ///< MeshResult::thinned_rays
     Point thinned_at{};                     ///< MeshResult::thinned_at
@@ -44,11 +64,15 @@ struct FittedLayer {
     std::vector<SizeSource> short_edges{};  ///< further sizes for the edges of borders
 };
 
+/// Prepares walls for a layer that sets these limits. `chord` is the reference chord.
+PreparedWalls prepare_walls(const Geometry& given, const SurfaceOptions& options, surface::SpacingLimits limits,
+                            double chord);
+
 /// Makes rays on these walls. Walls become finer where the layer's border would be divided, and columns end below cells with
 /// angles above 150 degrees. Behind the layers that go on along a wake, its sources request sizes. Throws OptionError
 /// where layers do not fit into the far field.
-FittedLayer fit_layer(PreparedWalls walls, const CaseOptions& options, const ReferenceConditions& conditions,
-                      const layers::LayerGrowth& growth, std::vector<ElementWake> wakes);
+FittedLayer fit_layer(PreparedWalls walls, const LayerRequest& layer, const DomainRequest& domain,
+                      const OuterSizes& sizes, const ReferenceConditions& conditions);
 
 /// Returns the layer on its rays.
 layers::Layer close_border(const FittedLayer& fitted);
@@ -56,7 +80,6 @@ layers::Layer close_border(const FittedLayer& fitted);
 /// If there are isotropic triangles whose angle is below the bound, and which no sharp corner excuses: shortens the
 /// rays that end beside them (`thin`), or, where no layer is left and elsewhere, the edges of the borders there. Returns
 /// whether it changed anything.
-bool make_room_at_narrow_triangles(std::span<const mesh::NarrowTriangle> narrow, bool thin, const SizingOptions& sizing,
-                                   FittedLayer& fitted);
+bool make_room_at_narrow_triangles(std::span<const mesh::NarrowTriangle> narrow, bool thin, FittedLayer& fitted);
 
 }  // namespace lamina::pipeline

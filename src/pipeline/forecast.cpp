@@ -11,9 +11,8 @@
 #include "core/limits.hpp"
 #include "layers/growth.hpp"
 #include "pipeline/budget.hpp"
-#include "pipeline/layer_plan.hpp"
 #include "pipeline/mesh_limits.hpp"
-#include "pipeline/mesh_stages.hpp"
+#include "pipeline/run.hpp"
 
 namespace lamina::pipeline {
 
@@ -102,15 +101,15 @@ std::optional<YPlusRange> y_plus_on(const MeshResult& result, std::size_t elemen
                      conditions);
 }
 
-/// Runs the stages up to the estimate.
+/// Runs the stages up to the estimate: run() without cells.
 MeshForecast forecast(const Geometry& geometry, const CaseOptions& options, StageClock& clock) {
     PlannedLayer plan = plan_layer(geometry, options, core::mesh_cost, clock);
     MeshForecast forecast;
     MeshResult& result = forecast.result;
-    const OutlinedMesh outlined = outline_mesh(plan.fitted, plan.options, clock, result);
+    const OutlinedMesh outlined = outline_mesh(plan.fitted, options.layer, options.surface, clock, result);
     const layers::Layer& layer = outlined.layer;
     result.estimate =
-        estimate_within_limits(plan.options.refine, plan.options.order, plan.options.sizing.gradation, layer,
+        estimate_within_limits(options.refine, options.order, options.sizing.gradation, layer,
                                outlined.outer(plan.fitted, options.decoupling), {options.limits, core::mesh_cost});
     clock.end(&StageSeconds::sizing);
     hand_over_decisions(plan, result);

@@ -80,9 +80,9 @@ std::string line_text(const InternalLine& line) {
     return text + ":" + geometry::point_list_text(line.points, line.file);
 }
 
-void validate_lines(const CaseOptions& options) {
+void validate_lines(std::span<const InternalLine> lines) {
     std::set<std::string> names;
-    for (const InternalLine& line : options.lines) {
+    for (const InternalLine& line : lines) {
         const MarkerKind kind = line.two_sided ? MarkerKind::wall : MarkerKind::internal;
         if (line.name.empty() || legal_marker_name(line.name, kind) != line.name)
             refuse(
@@ -305,7 +305,7 @@ InsertedVertices settle_on_walls(const Arrangement& arrangement, std::span<const
 }
 
 /// Throws OptionError where two-sided lines enclose a region, by themselves or with bodies.
-void require_connected_domain(const LineGraph& graph, std::span<const InternalLine> lines, const Geometry& geometry) {
+void require_connected_domain(const LineGraph& graph, const Geometry& geometry) {
     // Bodies that a line of symmetry cuts are parts of the domain's border, which comes behind the bodies.
     const std::size_t bodies = geometry.elements.size() + 1;
     std::map<Point, std::size_t, core::LexicographicOrder> body_at;
@@ -319,7 +319,7 @@ void require_connected_domain(const LineGraph& graph, std::span<const InternalLi
         return static_cast<std::uint32_t>(graph.on_border[v.index()] ? bodies - 1 : bodies + v.index());
     };
     for (std::size_t i = 0; i < graph.pieces.size(); ++i) {
-        const InternalLine& line = lines[graph.line[i]];
+        const InternalLine& line = graph.given[graph.line[i]];
         if (!line.two_sided) continue;
         if (!connected.join(node(graph.pieces[i].a), node(graph.pieces[i].b)))
             refuse(line, "it encloses a part of the flow, with bodies or other two-sided lines: leave a gap");
@@ -327,7 +327,7 @@ void require_connected_domain(const LineGraph& graph, std::span<const InternalLi
 }
 
 /// Throws OptionError for lines that meet sheets, whose sides are a gap apart there.
-void require_clear_of_sheets(const LineGraph& graph, std::span<const InternalLine> lines, const Geometry& geometry) {
+void require_clear_of_sheets(const LineGraph& graph, const Geometry& geometry) {
     std::set<Point, core::LexicographicOrder> on_sheets;
     for (const Element& element : geometry.elements)
         for (const geometry::SheetRange& range : geometry::sheet_ranges(element))
@@ -336,7 +336,7 @@ void require_clear_of_sheets(const LineGraph& graph, std::span<const InternalLin
     for (std::size_t i = 0; i < graph.pieces.size(); ++i)
         for (const VertexId v : {graph.pieces[i].a, graph.pieces[i].b})
             if (const Point p = graph.points[v.index()]; on_sheets.contains(p))
-                refuse(lines[graph.line[i]],
+                refuse(graph.given[graph.line[i]],
                        fmt::format("it meets a sheet near ({:.4g}, {:.4g}): leave a gap", p.x, p.y));
 }
 
@@ -416,8 +416,9 @@ LineGraph arrange_lines(std::span<const InternalLine> lines, const decoupling::F
         insert_vertices(inserted[e], geometry.elements[e]);
     }
     LineGraph graph = number_pieces(arrangement, pieces, moved, on_wall, strip);
-    require_connected_domain(graph, lines, geometry);
-    require_clear_of_sheets(graph, lines, geometry);
+    graph.given.assign(lines.begin(), lines.end());
+    require_connected_domain(graph, geometry);
+    require_clear_of_sheets(graph, geometry);
     return graph;
 }
 
@@ -534,8 +535,7 @@ bool meets_border(const PlacedSegment& line, const PlacedSegment& edge) {
 
 }  // namespace
 
-decoupling::InnerLines inner_lines(const LineGraph& graph, std::span<const InternalLine> lines,
-                                   const RegionBorders& region) {
+decoupling::InnerLines inner_lines(const LineGraph& graph, const RegionBorders& region) {
     decoupling::InnerLines inner;
     if (graph.pieces.empty()) return inner;
     std::map<Point, VertexId, core::LexicographicOrder> border_vertex;
@@ -567,7 +567,7 @@ decoupling::InnerLines inner_lines(const LineGraph& graph, std::span<const Inter
                 throw MeshError(
                     fmt::format("the layer crosses the line {} near ({}, {}): make it thinner there, or move the "
                                 "line",
-                                lines[graph.line[i]].name, c.x, c.y),
+                                graph.given[graph.line[i]].name, c.x, c.y),
                     c);
         });
         inner.lines.push_back(line);
@@ -575,8 +575,9 @@ decoupling::InnerLines inner_lines(const LineGraph& graph, std::span<const Inter
     return inner;
 }
 
-void add_line_markers(const LineGraph& graph, std::span<const InternalLine> lines,
-                      std::span<const std::vector<Segment>> inner_edges, std::vector<Marker>& markers) {
+void add_line_markers(const LineGraph& graph, std::span<const std::vector<Segment>> inner_edges,
+                      std::vector<Marker>& markers) {
+    const std::vector<InternalLine>& lines = graph.given;
     for (std::uint32_t k = 0; k < lines.size(); ++k) {
         if (std::any_of(markers.begin(), markers.end(), [&](const Marker& m) { return m.name == lines[k].name; }))
             refuse(lines[k], "another marker has this name already");

@@ -22,15 +22,16 @@ std::string line_text(const InternalLine& line);
 
 /// Throws OptionError for lines without a legal name of their own, without length, that run back on themselves, and for
 /// two-sided ones that are closed.
-void validate_lines(const CaseOptions& options);
+void validate_lines(std::span<const InternalLine> lines);
 
 /// The lines outside the bodies, cut where they cross each other.
 struct LineGraph {
+    std::vector<InternalLine> given;  ///< the lines as they were asked for
     std::vector<Point> points;        ///< vertices, where lines bend, cross, end, or meet walls
     std::vector<char> on_wall;        ///< per vertex: whether it is one of a wall of a body
     std::vector<char> on_border;      ///< per vertex: whether it is on a wall of the domain or its line of symmetry
     std::vector<Segment> pieces;      ///< straight, between vertices, in the order of the lines
-    std::vector<std::uint32_t> line;  ///< per piece: its line
+    std::vector<std::uint32_t> line;  ///< per piece: its line, one of those given
 };
 
 /// Cuts lines where they cross each other, the bodies, walls of the domain and its line of symmetry, and leaves out what
@@ -59,12 +60,11 @@ std::vector<std::vector<Point>> ends_of_pieces(const LineGraph& graph);
 std::vector<double> feet_on_border(const LineGraph& graph, double y);
 
 /// Returns the lines as part of the outer region. Throws MeshError where the layer crosses a line.
-decoupling::InnerLines inner_lines(const LineGraph& graph, std::span<const InternalLine> lines,
-                                   const RegionBorders& region);
+decoupling::InnerLines inner_lines(const LineGraph& graph, const RegionBorders& region);
 
 /// Adds a marker for each line, which is internal. `inner_edges` are those of the pieces.
-void add_line_markers(const LineGraph& graph, std::span<const InternalLine> lines,
-                      std::span<const std::vector<Segment>> inner_edges, std::vector<Marker>& markers);
+void add_line_markers(const LineGraph& graph, std::span<const std::vector<Segment>> inner_edges,
+                      std::vector<Marker>& markers);
 
 /// Doubles the vertices of two-sided lines, but for their free ends: their markers become walls that hold both sides.
 /// Vertices that are added come last.

@@ -7,15 +7,11 @@
 #include <fmt/format.h>
 
 #include <lamina/error.hpp>
-#include <lamina/threads.hpp>
 
-#include "decoupling/far_field.hpp"
 #include "layers/heights/heights.hpp"
 #include "pipeline/assemble.hpp"
 #include "pipeline/close_sheets.hpp"
-#include "pipeline/mesh_limits.hpp"
 #include "pipeline/row_border.hpp"
-#include "pipeline/warnings.hpp"
 #include "sizing/requests.hpp"
 
 namespace lamina::pipeline {
@@ -139,9 +135,9 @@ std::vector<double> first_heights_at_vertices(const FittedLayer& fitted, const l
     return heights;
 }
 
-SizeField sizes_beyond(const FittedLayer& fitted, const layers::Layer& layer, const SizingOptions& options) {
+SizeField sizes_beyond(const FittedLayer& fitted, const layers::Layer& layer) {
     return sizing::make_size_field(repeated_in_row(border_loops(layer), fitted.far_field), fitted.requests.sources,
-                                   options, fitted.conditions.chord, fitted.far_field.box());
+                                   fitted.sizes.options, fitted.conditions.chord, fitted.far_field.box());
 }
 
 /// Adds the markers of outer walls and of a line of symmetry that cuts bodies, or those of a row of blades.
@@ -156,25 +152,67 @@ void add_borders_of_domain(const FittedLayer& fitted, const layers::Layer& layer
     }
 }
 
-/// Returns all markers of the mesh. The far field is divided into inlet and outlet if the options ask for it.
-std::vector<Marker> markers_of_mesh(const FittedLayer& fitted, const layers::Layer& layer, const RegionBorders& region,
-                                    const CaseOptions& options, const DecoupledBorders& borders, MeshDriver& driver) {
+}  // namespace
+
+OutlinedMesh outline_mesh(const FittedLayer& fitted, const LayerOptions& layer_options, const SurfaceOptions& surface,
+                          StageClock& clock, MeshResult& result) {
+    layers::Layer layer = close_border(fitted);
+    summarize_layer(fitted, layer, layer_options, result);
+    if (surface.treatment == SurfaceTreatment::keep)
+        note_added_points(layer, layer_options.max_ray_angle_deg, result.geometry.elements);
+    clock.end(&StageSeconds::layers);
+
+    clock.begin("sizing");
+    SizeField size = sizes_beyond(fitted, layer);
+    RegionBorders region = fitted.far_field.pitch > 0 ? close_row(layer, fitted.below, fitted.far_field, size)
+                                                      : close_domain(layer, fitted.far_field, size, fitted.lines);
+    decoupling::InnerLines lines = inner_lines(fitted.lines, region);
+    return {std::move(layer), std::move(size), std::move(region), std::move(lines)};
+}
+
+decoupling::OuterRegion OutlinedMesh::outer(const FittedLayer& fitted, const DecouplingOptions& options) const {
+    return {region.points, region.borders, size, fitted.far_field, options, lines};
+}
+
+std::vector<Marker> markers_of_mesh(const FittedLayer& fitted, const OutlinedMesh& outlined,
+                                    const AssembleOptions& options, const FarFieldOptions& domain,
+                                    const DecoupledBorders& borders, MeshDriver& driver) {
+    const RegionBorders& region = outlined.region;
     std::vector<Segment> far_field = region.far_field;
     far_field.insert(far_field.end(), borders.far_field.begin(), borders.far_field.end());
-    std::vector<Marker> markers = make_markers(fitted.geometry, layer, std::move(far_field), options.assemble);
-    add_borders_of_domain(fitted, layer, region, options.far_field, markers);
-    if (region.row.empty() && (options.inlet_outlet || options.far_field.tunnel)) {
+    std::vector<Marker> markers = make_markers(fitted.geometry, outlined.layer, std::move(far_field), options);
+    add_borders_of_domain(fitted, outlined.layer, region, domain, markers);
+    if (region.row.empty() && (options.inlet_outlet || domain.tunnel)) {
         driver.place_far_field();
         split_far_field(borders.points, markers, fitted.conditions.alpha_deg);
     }
-    add_line_markers(fitted.lines, options.lines, borders.inner_edges, markers);
+    add_line_markers(fitted.lines, borders.inner_edges, markers);
     return markers;
 }
 
-/// Doubles the vertices of two-sided lines, closes sheets, and checks the mesh as a whole: pieces know no lines, and sheets
-/// with a gap. Beside lines the summary of walls stays that of the pieces, since those with two sides have no layers.
+MeshCheckOptions options_of_check(const FittedLayer& fitted, const layers::Layer& layer, double min_angle_deg,
+                                  const MeshResult& result, std::span<const Marker> markers) {
+    return {.min_angle_deg = min_angle_deg,
+            .first_heights = first_heights_of_markers(result, markers),
+            .first_height_at = first_heights_at_vertices(fitted, layer)};
+}
+
+void finish_check(mesh::PiecewiseCheck& check, const MadePieces& pieces, std::span<const Marker> markers,
+                  MadeMesh& made) {
+    made.result.check = check.finish(markers, made.constraints, pieces.first_triangle);
+    require_valid(made.result.check);
+    made.narrow = check.unexcused();
+}
+
+void take_cells(const layers::Layer& layer, MadePieces& pieces, MeshResult& result) {
+    result.mesh = std::move(pieces.mesh);
+    summarize_cells(layer, pieces.cells, result);
+    summarize_refinement(pieces.summary, result);
+}
+
 void complete_walls_without_thickness(std::span<const InternalLine> lines, double min_angle_deg, MadeMesh& made) {
     MeshResult& result = made.result;
+    if (lines.empty() && !has_sheets(result.geometry)) return;
     split_two_sided(lines, result.mesh, made.constraints);
     result.mesh.constraints = made.constraints;
     close_sheets(result);
@@ -185,106 +223,11 @@ void complete_walls_without_thickness(std::span<const InternalLine> lines, doubl
     require_valid(result.check);
 }
 
-/// Returns what the check of the pieces has to know of the layer.
-MeshCheckOptions options_of_check(const FittedLayer& fitted, const layers::Layer& layer, double min_angle_deg,
-                                  const MeshResult& result, std::span<const Marker> markers) {
-    return {.min_angle_deg = min_angle_deg,
-            .first_heights = first_heights_of_markers(result, markers),
-            .first_height_at = first_heights_at_vertices(fitted, layer)};
-}
-
-/// Ends the check of the pieces. Throws where the mesh is not valid.
-void finish_check(mesh::PiecewiseCheck& check, const MadePieces& pieces, std::span<const Marker> markers,
-                  MadeMesh& made) {
-    made.result.check = check.finish(markers, made.constraints, pieces.first_triangle);
-    require_valid(made.result.check);
-    made.narrow = check.unexcused();
-}
-
-/// Gives what is left of the pieces, beside the mesh, to who asked for it.
 void hand_over(MadePieces& pieces, MadeMesh& made) {
     made.counts = pieces.counts;
     made.hash = std::move(pieces.hash);
     made.sink = std::move(pieces.sink);
     made.parts = std::move(pieces.parts);
-}
-
-}  // namespace
-
-OutlinedMesh outline_mesh(const FittedLayer& fitted, const CaseOptions& options, StageClock& clock,
-                          MeshResult& result) {
-    layers::Layer layer = close_border(fitted);
-    summarize_layer(fitted, layer, options.layer, result);
-    if (options.surface.treatment == SurfaceTreatment::keep)
-        note_added_points(layer, options.layer.max_ray_angle_deg, result.geometry.elements);
-    clock.end(&StageSeconds::layers);
-
-    clock.begin("sizing");
-    SizeField size = sizes_beyond(fitted, layer, options.sizing);
-    RegionBorders region = fitted.far_field.pitch > 0 ? close_row(layer, fitted.below, fitted.far_field, size)
-                                                      : close_domain(layer, fitted.far_field, size, fitted.lines);
-    decoupling::InnerLines lines = inner_lines(fitted.lines, options.lines, region);
-    return {std::move(layer), std::move(size), std::move(region), std::move(lines)};
-}
-
-decoupling::OuterRegion OutlinedMesh::outer(const FittedLayer& fitted, const DecouplingOptions& options) const {
-    return {region.points, region.borders, size, fitted.far_field, options, lines};
-}
-
-MadeMesh make_mesh(const FittedLayer& fitted, const CaseOptions& options, MeshDriver& driver, StageClock& clock) {
-    const WorkBudget budget{options.limits, driver.cost()};
-    MadeMesh made;
-    MeshResult& result = made.result;
-    const OutlinedMesh outlined = outline_mesh(fitted, options, clock, result);
-    const layers::Layer& layer = outlined.layer;
-    const RegionBorders& region = outlined.region;
-    const decoupling::OuterRegion outer = outlined.outer(fitted, options.decoupling);
-    made.constraints = layer.edges.interfaces;
-    std::optional<RunEstimate> estimate;
-    driver.lead([&] {
-        estimate =
-            estimate_within_limits(options.refine, options.order, options.sizing.gradation, layer, outer, budget);
-        result.estimate = *estimate;
-    });
-    clock.end(&StageSeconds::sizing);
-
-    clock.begin("decoupling", estimate);
-    const DecoupledBorders borders =
-        driver.decouple(outer, refine_within(options.refine, fitted.conditions.chord, budget),
-                        triangles_beyond_layer(result.estimate, layer));
-    std::vector<Marker> markers = markers_of_mesh(fitted, layer, region, options, borders, driver);
-    clock.end(&StageSeconds::decoupling);
-
-    clock.begin("layer triangulation, refinement and check of pieces");
-    mesh::PiecewiseCheck check(borders.points,
-                               options_of_check(fitted, layer, options.refine.min_angle_deg, result, markers),
-                               driver.matched_elsewhere(region.points.size()));
-    core::BusyTimes times;
-    MadePieces pieces =
-        driver.make({layer, options.layer.topology, options.decomposition, markers, check, times, clock});
-    result.threads = thread_count();
-    result.thread_seconds = clock.end_shared(times);
-
-    clock.begin("check");
-    driver.lead([&] { finish_check(check, pieces, markers, made); });
-    driver.tell_narrow(made.narrow);
-    clock.end(&StageSeconds::check);
-
-    clock.begin("assembly");
-    require_made_within(budget, pieces.counts);
-    result.mesh = std::move(pieces.mesh);
-    result.mesh.markers = std::move(markers);
-    summarize_cells(layer, pieces.cells, result);
-    if (!options.lines.empty() || has_sheets(result.geometry))
-        complete_walls_without_thickness(options.lines, options.refine.min_angle_deg, made);
-    summarize_refinement(pieces.summary, result);
-    const WorstPlaces places{check.widest().middle, check.narrowest().middle, pieces.summary.oversized.middle,
-                             made.narrow};
-    driver.lead([&] { result.warnings = find_warnings(result, options, places, pieces.layer); });
-    driver.keep_parts(pieces);
-    hand_over(pieces, made);
-    clock.end(&StageSeconds::assembly);
-    return made;
 }
 
 }  // namespace lamina::pipeline

@@ -47,7 +47,7 @@ OptionTable<CaseOptions> make_pipeline_rows() {
         parse_line, line_text, member_at(&CaseOptions::lines));
     files.flag("inlet-outlet",
                "the far field is two markers: inlet, where a uniform flow at the angle of attack enters, and outlet",
-               true, member_at(&CaseOptions::inlet_outlet));
+               true, member_at(&CaseOptions::assemble, &AssembleOptions::inlet_outlet));
     files.count(
         "order", "P",
         "order of the cells: 1 for straight ones, 2 to 4 for curved ones that follow the walls, each proved valid; "
@@ -134,14 +134,14 @@ template LAMINA_EXPORT const OptionTable<CaseOptions>& option_table();
 
 namespace {
 
-void require_stream_along_walls(const CaseOptions& options) {
-    const bool is_level = options.conditions.alpha_deg == 0 && !options.conditions.alphas;
-    if (!is_level && (options.far_field.tunnel || options.far_field.ground))
+void require_stream_along_walls(const FlowConditions& conditions, const FarFieldOptions& domain) {
+    const bool is_level = conditions.alpha_deg == 0 && !conditions.alphas;
+    if (!is_level && (domain.tunnel || domain.ground))
         throw OptionError("alpha",
                           fmt::format("the flow runs along ground and tunnel walls: turn the configuration, as with "
                                       "--transform all:rotate:{:g}",
-                                      options.conditions.alphas ? -10 : -options.conditions.alpha_deg));
-    if (!is_level && options.far_field.symmetry)
+                                      conditions.alphas ? -10 : -conditions.alpha_deg));
+    if (!is_level && domain.symmetry)
         throw OptionError(
             "alpha",
             "the flow runs along the line of symmetry, so alpha is 0 there: mesh the whole configuration without "
@@ -150,11 +150,10 @@ void require_stream_along_walls(const CaseOptions& options) {
 
 }  // namespace
 
-FlowWalls flow_walls(const Geometry& geometry, const CaseOptions& options) {
-    require_stream_along_walls(options);
-    const double chord = reference_conditions(options.conditions, reference_box(geometry)).chord;
-    const decoupling::FarField far_field =
-        decoupling::place_far_field(bounding_box(geometry), chord, options.far_field);
+FlowWalls flow_walls(const Geometry& geometry, const FlowConditions& conditions, const FarFieldOptions& domain) {
+    require_stream_along_walls(conditions, domain);
+    const double chord = reference_conditions(conditions, reference_box(geometry)).chord;
+    const decoupling::FarField far_field = decoupling::place_far_field(bounding_box(geometry), chord, domain);
     FlowWalls walls;
     if (std::isfinite(far_field.floor)) walls.below = far_field.floor;
     if (std::isfinite(far_field.ceiling)) walls.above = far_field.ceiling;
@@ -178,7 +177,7 @@ void validate(const CaseOptions& options) {
     validate(options.decomposition);
     validate(options.refine);
     require_in_range(pipeline_rows(), options);
-    validate_lines(options);
+    validate_lines(options.lines);
     validate_order(options);
     const bool by_y_plus = options.layer.enabled && std::holds_alternative<YPlus>(options.layer.first_height);
     if (options.vertices && options.cells) throw OptionError("cells", "follow from vertices, which are given");
@@ -186,8 +185,8 @@ void validate(const CaseOptions& options) {
         throw OptionError("y_plus", "needs reynolds, or velocity and viscosity");
     if (options.use_flow && !options.conditions.reynolds && !options.conditions.velocity)
         throw OptionError("use_flow", "needs reynolds, or velocity and viscosity");
-    require_stream_along_walls(options);
-    if (options.inlet_outlet && options.conditions.alphas)
+    require_stream_along_walls(options.conditions, options.far_field);
+    if (options.assemble.inlet_outlet && options.conditions.alphas)
         throw OptionError("inlet_outlet", "the flow enters at one angle of attack: give one alpha");
     if (options.layer.enabled && options.layer.wake_layers) {
         if (options.conditions.alphas)

@@ -1,4 +1,4 @@
-// Runs the stages in their order.
+// Makes meshes in memory, into a sink and on several processes: all stages (run.hpp) with three drivers.
 #include <lamina/pipeline.hpp>
 
 #include <algorithm>
@@ -10,64 +10,13 @@
 #include <lamina/threads.hpp>
 
 #include "pipeline/budget.hpp"
-#include "pipeline/curve_mesh.hpp"
 #include "pipeline/derived_options.hpp"
-#include "pipeline/fit_layer.hpp"
-#include "pipeline/layer_plan.hpp"
-#include "pipeline/mesh_stages.hpp"
+#include "pipeline/run.hpp"
+#include "pipeline/sharing/mesh_driver.hpp"
 
 namespace lamina::pipeline {
 
 namespace {
-
-/// Makes meshes on shorter rays and with shorter edges of borders, for as long as fewer and fewer triangles have an angle
-/// below the bound that no sharp corner excuses, and returns the best. A bound above the proved one is no promise, so nothing
-/// is done for it. Room for one triangle takes some from others: two rounds that leave more than nine tenths of them end the
-/// search, and twelve in any case.
-MadeMesh make_mesh_until_angles_hold(FittedLayer& fitted, const CaseOptions& options, MeshDriver& driver,
-                                     StageClock& clock) {
-    constexpr int max_rounds_without_gain = 2, max_rounds = 12;
-    constexpr double gain = 0.9;
-    MadeMesh best = make_mesh(fitted, options, driver, clock);
-    if (options.refine.min_angle_deg > proved_min_angle_deg) return best;
-    std::vector<mesh::NarrowTriangle> narrow = best.narrow;
-    int without_gain = 0;
-    for (int round = 0; round < max_rounds && without_gain < max_rounds_without_gain; ++round) {
-        // In a slot with one row of triangles, thinner layers move a triangle that misses the bound along the slot.
-        if (!make_room_at_narrow_triangles(narrow, without_gain == 0, options.sizing, fitted)) break;
-        clock.begin("layers, thinned");
-        MadeMesh next;
-        try {
-            next = make_mesh(fitted, options, driver, clock);
-        } catch (const RankFailure&) {
-            break;  // the best mesh so far is valid
-        } catch (const Error& error) {
-            driver.fail(error);
-            break;
-        }
-        narrow = next.narrow;
-        const auto before = static_cast<double>(best.narrow.size()), after = static_cast<double>(narrow.size());
-        without_gain = after <= gain * before ? 0 : without_gain + 1;
-        if (after < before) best = std::move(next);
-    }
-    return best;
-}
-
-/// Runs all stages on a geometry.
-MadeMesh run(const Geometry& whole, const CaseOptions& options, MeshDriver& driver, StageClock& clock) {
-    PlannedLayer plan = plan_layer(whole, options, driver.cost(), clock);
-    MadeMesh made = make_mesh_until_angles_hold(plan.fitted, plan.options, driver, clock);
-
-    MeshResult& result = made.result;
-    if (options.order > 1) {
-        clock.begin("curving");
-        curve_mesh(options.order, plan.fitted.curves, result);
-        clock.end(&StageSeconds::curving);
-    }
-    hand_over_decisions(plan, result);
-    result.seconds = clock.seconds();
-    return made;
-}
 
 /// Runs all stages on what `read` returns.
 template <class Read>

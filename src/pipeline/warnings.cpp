@@ -279,8 +279,7 @@ void warn_of_topology(const MeshResult& result, std::vector<Warning>& warnings) 
 
 // ---- the isotropic region ----
 
-void warn_of_refinement(const MeshResult& result, const RefineOptions& options, const WorstPlaces& worst,
-                        std::vector<Warning>& warnings) {
+void warn_of_refinement(const MeshResult& result, const WorstPlaces& worst, std::vector<Warning>& warnings) {
     const auto add = [&](WarningCode code, std::size_t count, const std::string& unit, Point at,
                          const std::string& message) {
         warnings.push_back({.code = code,
@@ -298,8 +297,8 @@ void warn_of_refinement(const MeshResult& result, const RefineOptions& options, 
         const Point* p = narrowest.corners;
         add(WarningCode::small_angle, narrow.size(), "triangles", (1.0 / 3) * (p[0] + p[1] + p[2]),
             fmt::format("{} below the bound of {} degrees, down to {:.2f}",
-                        counted(narrow.size(), "triangle has an angle", "triangles have an angle"),
-                        options.min_angle_deg, angle_of(narrowest)));
+                        counted(narrow.size(), "triangle has an angle", "triangles have an angle"), worst.min_angle_deg,
+                        angle_of(narrowest)));
     }
     if (const std::size_t refused = result.refinement.refused; refused > 0)
         add(WarningCode::refused_points, refused, "points", worst.narrowest,
@@ -362,24 +361,30 @@ void warn_of_base_markers(const Geometry& geometry, std::vector<Warning>& warnin
 
 }  // namespace
 
-std::vector<Warning> find_warnings(const MeshResult& result, const CaseOptions& options, const WorstPlaces& worst,
-                                   const Mesh& layer) {
+std::vector<Warning> warnings_of_input(const MeshResult& result, const SurfaceOptions& surface,
+                                       const FlowConditions& conditions, const AssembleOptions& markers) {
     std::vector<Warning> warnings;
     add_reader_warnings(result.geometry, warnings);
-    if (options.assemble.base_marker) warn_of_base_markers(result.geometry, warnings);
-    warn_of_surfaces(result.geometry, options.surface, warnings);
-    warn_of_reynolds(result, options.conditions, warnings);
-    warn_of_first_height(result, options.layer, warnings);
+    if (markers.base_marker) warn_of_base_markers(result.geometry, warnings);
+    warn_of_surfaces(result.geometry, surface, warnings);
+    warn_of_reynolds(result, conditions, warnings);
+    return warnings;
+}
+
+std::vector<Warning> warnings_of_mesh(const MeshResult& result, const LayerOptions& options, const WorstPlaces& worst,
+                                      const Mesh& layer) {
+    std::vector<Warning> warnings;
+    warn_of_first_height(result, options, warnings);
     warn_of_topology(result, warnings);
     warn_of_first_layer(result, layer, warnings);
     warn_of_bare_walls(result, warnings);
     warn_of_first_heights(result, warnings);
     warn_of_cut_rays(result, warnings);
     warn_of_thinned_layers(result, warnings);
-    warn_of_transition(result, options.layer, warnings);
-    warn_of_areas(result, options.layer, layer, warnings);
+    warn_of_transition(result, options, warnings);
+    warn_of_areas(result, options, layer, warnings);
     warn_of_large_angles(result, worst, layer, warnings);
-    warn_of_refinement(result, options.refine, worst, warnings);
+    warn_of_refinement(result, worst, warnings);
     return warnings;
 }
 

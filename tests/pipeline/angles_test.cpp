@@ -169,7 +169,7 @@ INSTANTIATE_TEST_SUITE_P(Powers, CountedScales, testing::Values(1.4, 1.84, 2.0))
 TEST(AnglesOfAttack, AnInletHasOne) {
     CaseOptions options = options_of_range(1e6, {0, 4, 4});
     EXPECT_NO_THROW(validate(options));
-    options.inlet_outlet = true;
+    options.assemble.inlet_outlet = true;
     EXPECT_THROW(validate(options), OptionError);
 }
 

@@ -60,7 +60,7 @@ TEST(InletOutlet, IsAnOptionOfTheMesh) {
     CaseOptions options;
     options.far_field.size = 5;
     options.layer.enabled = false;
-    options.inlet_outlet = true;
+    options.assemble.inlet_outlet = true;
     const Mesh mesh = generate_mesh(std::vector<std::string>{"naca:0012:60"}, options).mesh;
     EXPECT_TRUE(check_mesh(mesh).valid());
     ASSERT_EQ(mesh.markers.size(), 3u);

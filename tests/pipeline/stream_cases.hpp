@@ -41,7 +41,7 @@ inline std::vector<StreamCase> stream_cases() {
              o.far_field.ground_wall = OuterWallKind::moving;
          })},
         {"inlet and outlet", {"naca:0012:60:blunt"}, small([](CaseOptions& o) {
-             o.inlet_outlet = true;
+             o.assemble.inlet_outlet = true;
              o.assemble.base_marker = true;
              o.layer.layers.reset();
          })},
