@@ -1,8 +1,8 @@
 """The documentation as a site: `./dev site`. The pages stay those that a code host shows.
 
 The lists of links in the pages of CONTENTS are the table of contents: each section of such a page becomes a part of
-the menu. Links to files that are no pages lead to copies of these files. The site alone has the reference of Python: a
-page for each public name, made of its docstring.
+the menu. Links to files that are no pages lead to copies of these files. Notebooks are shown as they were run. The site
+alone has the reference of Python: a page for each public name, made of its docstring.
 """
 
 import pathlib
@@ -12,13 +12,15 @@ import lamina
 
 project = "lamina"
 author = "the lamina authors"
-extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx_copybutton"]
+extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx_copybutton"]
 root_doc = "docs/README"
 include_patterns = ["docs/**", "README.md", "CONTRIBUTING.md", "CHANGELOG.md", "packaging/README.md", "web/README.md",
                     "src/**/README.md"]
 exclude_patterns = ["docs/site", "docs/Doxyfile"]
-source_suffix = {".md": "markdown", ".rst": "restructuredtext"}
+source_suffix = {".md": "myst-nb", ".ipynb": "myst-nb", ".rst": "restructuredtext"}
 nitpicky = True
+
+nb_execution_mode = "off"
 
 # The anchors of headings are those of code hosts.
 myst_heading_anchors = 4
@@ -48,7 +50,7 @@ def menu_of(text, page):
     """Returns the tables of contents that the lists of links in a page amount to."""
     menu = ""
     for section in re.split(r"(?m)^## ", text):
-        targets = re.findall(r"(?m)^- \[[^\]]*\]\(([^)#]+)\.md\)", section)
+        targets = re.findall(r"(?m)^- \[[^\]]*\]\(([^)#]+)\.(?:md|ipynb)\)", section)
         caption = section.partition("\n")[0] if page == root_doc else ""
         if targets:
             menu += "\n```{toctree}\n:hidden:\n" + (f":caption: {caption}\n" if caption else "") + "\n"
@@ -90,8 +92,11 @@ def write_reference(app):
 
 
 def as_text(app, what, name, of, options, lines):
-    """Makes docstrings, plain text with code in single backquotes and underlined headings, what Sphinx reads."""
+    """Makes docstrings, plain text with code in single backquotes, underlined headings and indented drawings, what Sphinx
+    reads."""
     for i, line in enumerate(lines):
+        if line.endswith(":") and lines[i + 1:i + 2] == [""] and lines[i + 2].startswith("    "):
+            lines[i] = line = line + ":"
         if i > 0 and re.fullmatch("-{3,}", line):
             lines[i - 1:i + 1] = [f".. rubric:: {lines[i - 1]}", ""]
             continue

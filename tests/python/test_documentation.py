@@ -1,6 +1,11 @@
 """The Python of the pages runs: the blocks of a page one after the other, as a reader would type them."""
 
+import ast
+import contextlib
 import importlib.util
+import io
+import json
+import pathlib
 import re
 import shutil
 import warnings
@@ -16,6 +21,9 @@ PAGES = ["README.md", "docs/python.md", "docs/recipes/batch.md", "docs/recipes/m
 FILES = {"section.dat": "rae2822.dat", "slat.dat": "crmhl2d_slat.dat", "main.dat": "crmhl2d_main.dat",
          "flap.dat": "crmhl2d_flap.dat"}
 MESHES = ["mesh.msh", "mesh.vtu"]
+
+
+NOTEBOOKS = sorted((pathlib.Path(__file__).resolve().parents[2] / "docs/notebooks").glob("*.ipynb"))
 
 
 def names_of_readers():
@@ -56,3 +64,45 @@ def test_no_page_is_left_out(repository):
     pages = [page for page in [*repository.glob("*.md"), *repository.glob("docs/**/*.md"), repository / "web/README.md"]
              if "```python" in page.read_text()]
     assert sorted(str(page.relative_to(repository)) for page in pages) == sorted(PAGES)
+
+
+def text_shown(code, names):
+    """Runs a cell, and returns what a notebook shows below it: what it prints, and its last value."""
+    body = ast.parse(code).body
+    last = body.pop() if body and isinstance(body[-1], ast.Expr) else None
+    printed = io.StringIO()
+    with contextlib.redirect_stdout(printed):
+        exec(compile(ast.Module(body, []), "cell", "exec"), names)
+        value = eval(compile(ast.Expression(last.value), "cell", "eval"), names) if last else None
+    return printed.getvalue() + (repr(value) if value is not None else "")
+
+
+def stored_text(cell):
+    texts = ["".join(output.get("text", []) or output.get("data", {}).get("text/plain", []))
+             for output in cell["outputs"] if output["output_type"] != "display_data"]
+    return "".join(texts)
+
+
+@pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda path: path.stem)
+def test_notebooks_show_what_they_print(notebook, tmp_path, monkeypatch):
+    """Numbers may be 3 % off those of the notebook: `./dev pictures` runs it anew."""
+    plots = pytest.importorskip("matplotlib.pyplot")
+    monkeypatch.chdir(tmp_path)
+    number, names, shown, stored = re.compile(r"[\d,]*\d(?:\.\d+)?(?:e[-+]?\d+)?"), {}, [], []
+    for cell in json.loads(notebook.read_text())["cells"]:
+        if cell["cell_type"] == "code":
+            shown.append(text_shown("".join(cell["source"]), names).strip())
+            stored.append(stored_text(cell).strip())
+    plots.close("all")
+    assert [number.sub("#", text) for text in shown] == [number.sub("#", text) for text in stored]
+    values = [[float(found.replace(",", "")) for text in texts for found in number.findall(text)]
+              for texts in (shown, stored)]
+    assert len(values[0]) >= 4
+    np.testing.assert_allclose(*values, rtol=0.03, atol=0.002)
+    pictures = [output for cell in json.loads(notebook.read_text())["cells"] for output in cell.get("outputs", [])
+                if "image/png" in output.get("data", {})]
+    assert len(pictures) >= 3
+
+
+def test_there_are_notebooks():
+    assert len(NOTEBOOKS) == 2
