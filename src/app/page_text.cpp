@@ -38,7 +38,9 @@ double chord_of_walls(const Mesh& mesh) {
     return walls.lower.x <= walls.upper.x ? walls.width() : 0;
 }
 
+/// Returns the title of a section, such as "RAE 2822 AIRFOIL", or the names of the elements.
 std::string title_of_geometry(const Geometry& geometry) {
+    if (geometry.elements.size() == 1 && !geometry.elements[0].title.empty()) return geometry.elements[0].title;
     std::string title;
     for (const Element& element : geometry.elements) title += (title.empty() ? "" : ", ") + element.name;
     return title;

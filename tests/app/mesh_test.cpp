@@ -412,6 +412,25 @@ TEST(MeshCommandOptions, TheSummaryNamesEveryFile) {
     }
 }
 
+TEST(MeshCommandOptions, ThePageIsNamedAfterTheSection) {
+    const TemporaryFolder folder;
+    const auto title_of = [&](std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), "mesh");
+        for (const char* argument : {"--no-layers", "--far-field", "3", "-o", "m.su2", "--html", "m.html"})
+            arguments.emplace_back(argument);
+        const ProgramRun run = run_lamina(folder, arguments);
+        EXPECT_EQ(run.exit_code, 0) << run.err;
+        const std::string page = folder.read("m.html");
+        const std::size_t begin = page.find("<title>") + 7;
+        return page.substr(begin, page.find("</title>") - begin);
+    };
+    folder.write("file.dat", "A plate\n1 0\n0.5 0.1\n0 0\n0.5 -0.1\n1 0\n");
+    EXPECT_EQ(title_of({"naca:0012:40"}), "NACA 0012");
+    EXPECT_EQ(title_of({"file.dat"}), "A plate");
+    EXPECT_EQ(title_of({"file.dat", "naca:0012:40", "--names", "front,rear", "--transform", "rear:shift:2,0"}),
+              "front, rear");
+}
+
 TEST(MeshCommandOptions, ProgressGoesToStandardError) {
     const TemporaryFolder folder;
     const std::vector<std::string> arguments{"mesh", "naca:0012:40", "--no-layers", "--far-field",

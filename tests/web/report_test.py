@@ -53,6 +53,38 @@ look = """() => {
   return {colors: colors.size, hash, red: red / words.length};
 }"""
 
+# The texts that boxes cut: their own, or a box that hides what is wider than it, or an axis beside its chart.
+cut_texts = """() => {
+  const cut = [], say = (element) => cut.push(`${element.tagName} ${element.className.baseVal ?? element.className}: ` +
+                                              element.textContent.slice(0, 60));
+  for (const element of document.querySelectorAll("header *, main *")) {
+    if (!element.checkVisibility() || !element.textContent.trim()) continue;
+    const style = getComputedStyle(element);
+    if (style.overflowX !== "visible" && element.scrollWidth > element.clientWidth + 1 && element.clientWidth > 0) say(element);
+    if (element.tagName === "text") {
+      const box = element.getBoundingClientRect(), chart = element.ownerSVGElement.getBoundingClientRect();
+      if (box.left < chart.left - 1 || box.right > chart.right + 1 || box.bottom > chart.bottom + 1) say(element);
+    }
+    if (element.tagName === "SELECT") {
+      const brush = document.createElement("canvas").getContext("2d");
+      brush.font = style.font;
+      const wide = Math.max(...[...element.options].map((option) => brush.measureText(option.text).width));
+      const room = element.clientWidth - parseFloat(style.paddingLeft) - parseFloat(style.paddingRight);
+      if (wide > room) say(element);
+    }
+  }
+  // Texts of an axis must not run into each other, nor boxes over the mesh.
+  const groups = [...document.querySelectorAll("svg.chart")].map((chart) => [...chart.querySelectorAll("text")]);
+  for (const group of [...groups, [...document.querySelectorAll(".over")]]) {
+    const boxes = group.filter((one) => one.checkVisibility() && one.textContent.trim())
+        .map((one) => [one, one.getBoundingClientRect()]);
+    boxes.forEach(([one, a], i) => boxes.slice(0, i).forEach(([, b]) => {
+      if (a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom) say(one);
+    }));
+  }
+  return cut;
+}"""
+
 # The share of the pixels that differ between two images, of which the second has moved to the left.
 difference = """([before, after, shift]) => {
   const a = window[before], b = window[after];
@@ -136,6 +168,22 @@ class Report(unittest.TestCase):
         self.assertNotEqual(page.inner_text("#bar"), before)
         self.go(page, "slot 1")
         page.screenshot(path=output / "high-lift-size.png")
+
+    def test_boxes_do_not_cut_texts(self):
+        section = output / "long.dat"
+        section.write_text("A section with a title as long as those of collections are, from a paper, with its thickness\n" +
+                           (repository / "examples/geometry/rae2822.dat").read_text().partition("\n")[2])
+        pages = [self.page_file, self.slots, mesh("long", section, "--reynolds", 6.5e6)]
+        for file in pages:
+            page = self.open(file)
+            page.evaluate("document.querySelectorAll('details').forEach((section) => section.open = true)")
+            for width in (1280, 900, 420):
+                page.set_viewport_size({"width": width, "height": 800})
+                self.settle(page)
+                self.assertEqual(page.evaluate(cut_texts), [], f"{file.name}, {width} pixels wide")
+            page.screenshot(path=output / f"{file.stem}-narrow.png")
+        self.assertIn("with its thickness", page.inner_text("#title"))
+        self.assertIn("with its thickness", page.title())
 
     def test_follows_the_theme(self):
         brightness = {}
