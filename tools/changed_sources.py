@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Prints the sources of src/ that clang-tidy has to look at after a change, one in a line.
+"""Prints the sources that Clang has to look at after a change, one in a line: those of src/, tests/, tools/ and bench/.
 
 usage: tools/changed_sources.py [BASE]
 
@@ -15,6 +15,7 @@ import subprocess
 import sys
 
 SOURCE = pathlib.Path(__file__).resolve().parents[1]
+FOLDERS = ["src", "tests", "tools", "bench"]
 
 
 def git(*words):
@@ -60,10 +61,10 @@ def main():
     before = sys.argv[1] if len(sys.argv) > 1 else base()
     changed = git("diff", "--name-only", "--diff-filter=d", before) if before else None
     if changed is not None:
-        changed += git("ls-files", "--others", "--exclude-standard", "src", "include") or []
+        changed += git("ls-files", "--others", "--exclude-standard", "include", *FOLDERS) or []
     if changed is None or ".clang-tidy" in changed:
-        changed = git("ls-files", "src") or []
-    sources = {f for f in changed if re.fullmatch(r"src/.*\.cpp", f)}
+        changed = git("ls-files", *FOLDERS) or []
+    sources = {f for f in changed if re.fullmatch(rf"({'|'.join(FOLDERS)})/.*\.cpp", f)}
     headers = [f for f in changed if re.fullmatch(r"(src|include)/.*\.hpp", f)]
     by_header = includers() if headers else {}
     sources |= {source for h in headers if (source := source_with(h, by_header))}

@@ -57,7 +57,8 @@ const std::string plate_with_slit = "1 0\n1 0.1\n0.61 0.1\n0.2 0.03\n0.6 0.1\n0 
 TEST(WarningsOfTheProgram, AnglesBelowTheBoundWriteNothingUnlessDefectsAreAllowed) {
     const TemporaryFolder folder;
     folder.write("slit.dat", plate_with_slit);
-    const std::vector<std::string> arguments{"mesh", "slit.dat", "--far-field", "15", "--quiet", "-o", "m.su2"};
+    const std::vector<std::string> arguments{"mesh", "slit.dat", "--far-field", "4",    "--surface",
+                                             "keep", "--quiet",  "-o",          "m.su2"};
     const ProgramRun refused = run_lamina(folder, arguments);
     EXPECT_EQ(refused.exit_code, not_to_the_standard);
     EXPECT_NE(lines_of(refused.err).back().find("--allow-defects"), std::string::npos) << refused.err;

@@ -134,9 +134,11 @@ TEST_P(EveryFormat, LosesNothingInSilenceWhereItIsCutShort) {
     write(mesh);
     const Parts whole = parts();
     EXPECT_EQ(hash_or_complaint(whole), mesh_hash(mesh));
+    // The CGNS library takes a hundred times as long as other readers.
+    const std::size_t places = (GetParam().name.starts_with("cgns") ? 100 : 1000) / whole.size();
     for (const auto& [part, content] : whole) {
         if (part.extension() == ".edge") continue;  // is not read, since it follows from the triangles
-        const std::size_t step = 1 + content.size() / 1000;
+        const std::size_t step = 1 + content.size() / places;
         Parts cut = whole;
         // Nothing in a .mapbc file shows that the name at its end was shortened.
         const std::size_t end = part.extension() == ".mapbc" ? content.rfind(' ') : content.size();
