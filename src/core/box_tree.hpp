@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -93,17 +94,37 @@ public:
     }
 
     /// Returns min(start, minimum over the items of value + slope x distance to p). distance(item) returns the distance
-    /// from p to an item, which may not be less than that to its box.
+    /// from p to an item, which may not be less than that to its box. Groups that may hold the least value are entered
+    /// first, so that of a curve with like values few items are looked at, wherever on it p is.
     template <class Distance>
     double minimum(Point p, double slope, double start, const std::vector<std::vector<double>>& values,
                    Distance&& distance) const {
+        struct Group {
+            double bound;
+            std::size_t level, index;
+        };
         double best = start;
-        walk(
-            [&](const Box& box, std::size_t level, std::size_t i) {
-                const double room = best - values[level][i];
-                return room > 0 && slope * slope * squared_distance(box, p) < room * room;
-            },
-            [&](std::size_t item) { best = std::min(best, values[0][item] + slope * distance(item)); });
+        std::array<Group, max_waiting> stack;
+        std::size_t waiting = 0;
+        const auto push_all = [&](std::size_t level, std::size_t first) {
+            const std::size_t begin = waiting;
+            for (std::size_t i = first; i < std::min(first + arity, levels_[level].size()); ++i) {
+                const double bound = values[level][i] + slope * std::sqrt(squared_distance(levels_[level][i], p));
+                if (bound < best) stack[waiting++] = {bound, level, i};
+            }
+            std::sort(stack.begin() + begin, stack.begin() + waiting,
+                      [](const Group& a, const Group& b) { return a.bound > b.bound; });
+        };
+        push_all(levels_.size() - 1, 0);
+        while (waiting > 0) {
+            const Group group = stack[--waiting];
+            if (group.bound >= best) continue;
+            if (group.level == 0) {
+                best = std::min(best, values[0][group.index] + slope * distance(group.index));
+            } else {
+                push_all(group.level - 1, group.index * arity);
+            }
+        }
         return best;
     }
 
@@ -130,6 +151,8 @@ public:
 
 private:
     static constexpr std::size_t arity = 4;
+    /// The depth is at most 16 for 2^32 items; each level leaves at most arity - 1 siblings waiting.
+    static constexpr std::size_t max_waiting = 16 * arity;
     std::vector<std::vector<Box>> levels_;  ///< items first, the largest groups (at most `arity`) last
 
     /// Calls visit(item) for the items of all groups that enter(box, level, index) lets in, in ascending order.
@@ -138,8 +161,7 @@ private:
         struct Group {
             std::size_t level, index;
         };
-        // The depth is at most 16 for 2^32 items; each level leaves at most arity - 1 siblings waiting.
-        std::array<Group, 16 * arity> stack;
+        std::array<Group, max_waiting> stack;
         std::size_t waiting = 0;
         const auto push_all = [&](std::size_t level, std::size_t first) {
             for (std::size_t i = std::min(first + arity, levels_[level].size()); i-- > first;)

@@ -128,5 +128,31 @@ TEST(BoxTree, FindsTheMinimumOfValueAndDistance) {
     }
 }
 
+TEST(BoxTree, LooksAtFewItemsOfACurveWithLikeValues) {
+    // The teeth of a comb, whose sides are near to each other.
+    for (const std::size_t n : {400, 40000}) {
+        std::vector<Box> boxes(n);
+        const auto at = [&](std::size_t i) {
+            const double along = 40.0 * static_cast<double>(i) / static_cast<double>(n), part = std::fmod(along, 2);
+            return Point{0.01 * std::floor(along), part < 1 ? part : 2 - part};
+        };
+        for (std::size_t i = 0; i < n; ++i) {
+            boxes[i].include(at(i));
+            boxes[i].include(at(i + 1));
+        }
+        const core::BoxTree tree(boxes);
+        const auto minima = tree.group_minima(std::vector<double>(n, 1e-4));
+        for (const std::size_t k : {n / 7, n / 2, n - 3}) {
+            std::size_t looks = 0;
+            const Point p = midpoint(at(k), at(k + 1));
+            tree.minimum(p, 0.1, 1, minima, [&](std::size_t i) {
+                ++looks;
+                return std::sqrt(core::squared_distance(boxes[i], p));
+            });
+            EXPECT_LE(looks, 8u) << k << " of " << n;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace lamina

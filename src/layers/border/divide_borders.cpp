@@ -184,9 +184,13 @@ class EdgeDivision {
 public:
     /// target: TargetLength::along() of the edge. whole_up_to: the edge may be this many times as long as its target
     /// and still stay whole.
-    EdgeDivision(double length, std::vector<TargetInterval> target, double whole_up_to)
-        : length_(length), target_(std::move(target)) {
-        for (const TargetInterval& i : target_) excess_ += i.length / i.target;
+    EdgeDivision(double length, std::span<const TargetInterval> target, double whole_up_to) : length_(length) {
+        double distance = 0;
+        for (const TargetInterval& interval : target) {
+            excess_ += interval.length / interval.target;
+            intervals_.push_back({distance, excess_, interval.target});
+            distance += interval.length;
+        }
         needed_parts_ = excess_ <= whole_up_to ? 1 : static_cast<std::size_t>(std::ceil(excess_ / alike));
         parts_ = needed_parts_;
     }
@@ -203,20 +207,7 @@ public:
     /// Returns the distances of the division points from the edge's start, ascending.
     std::vector<double> division_points() const {
         std::vector<double> points;
-        double distance = 0, sum = 0;  // along the edge, and of length / target, up to the current interval
-        std::size_t k = 1;
-        for (const auto& [length, target] : target_) {
-            const double share = length / target;
-            while (k < parts_) {
-                const double wanted = excess_ * static_cast<double>(k) / static_cast<double>(parts_);
-                if (wanted > sum + share) break;
-                points.push_back(distance + (wanted - sum) * target);
-                ++k;
-            }
-            sum += share;
-            distance += length;
-        }
-        assert(points.size() + 1 == parts_);
+        for (std::size_t k = 1; k < parts_; ++k) points.push_back(division_point(k));
         return points;
     }
 
@@ -225,14 +216,28 @@ public:
         double first, last;
     };
     EndParts end_parts() const {
-        const std::vector<double> points = division_points();
-        return points.empty() ? EndParts{length_, length_} : EndParts{points.front(), length_ - points.back()};
+        return divided() ? EndParts{division_point(1), length_ - division_point(parts_ - 1)}
+                         : EndParts{length_, length_};
     }
 
 private:
+    /// Where an interval begins, the integral up to its end, and its target.
+    struct Interval {
+        double begin, integral, target;
+    };
+
     double length_, excess_ = 0;
-    std::vector<TargetInterval> target_;
+    std::vector<Interval> intervals_;
     std::size_t needed_parts_ = 1, parts_ = 1;
+
+    /// Returns the distance of the end of part k, counted from 1, from the edge's start.
+    double division_point(std::size_t k) const {
+        const double wanted = excess_ * static_cast<double>(k) / static_cast<double>(parts_);
+        const auto at = std::lower_bound(intervals_.begin(), intervals_.end() - 1, wanted,
+                                         [](const Interval& i, double integral) { return i.integral < integral; });
+        const double before = at == intervals_.begin() ? 0 : (at - 1)->integral;
+        return at->begin + (wanted - before) * at->target;
+    }
 };
 
 // Edges that lie back to back, on both sides of a sheet. They get the same points.
@@ -377,11 +382,11 @@ bool exceeds_sources(const PolygonEdge& edge, const BorderOptions& options) {
 
 /// Returns the division of an edge by itself. It may stay whole up to so many times its target, unless sources ask for
 /// less.
-EdgeDivision own_division(const PolygonEdge& edge, std::vector<TargetInterval> target, double whole_up_to,
+EdgeDivision own_division(const PolygonEdge& edge, std::span<const TargetInterval> target, double whole_up_to,
                           const BorderOptions& options) {
     const EdgeDivision division(edge.length, target, whole_up_to);
     const bool spared = !division.divided() && division.excess() > alike;
-    return spared && exceeds_sources(edge, options) ? EdgeDivision(edge.length, std::move(target), alike) : division;
+    return spared && exceeds_sources(edge, options) ? EdgeDivision(edge.length, target, alike) : division;
 }
 
 std::vector<EdgeDivision> balanced_divisions(std::span<const PolygonEdge> edges, std::span<const std::size_t> across,
