@@ -22,7 +22,6 @@
 #include "layers/heights/numbers.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "layers/mechanisms.hpp"
@@ -73,45 +72,19 @@ double cost_of_change(const RayChoices& ray_before, const RayChoices& ray, std::
     return square * square;
 }
 
-/// A step from a number on the ray before.
-struct Step {
-    std::uint32_t before;
-    double cost;  ///< of the change, and of the number that it leads to
-};
-
-/// Returns the steps to number n of ray k: from the same number, the one below and the one above, or those nearest to them.
-std::array<Step, 3> steps_to(std::span<const RayChoices> rays, std::size_t k, std::uint32_t n) {
-    const LayerRange& range_before = rays[k - 1].end->layers;
-    const double off = double(n) - double(rays[k].end->wanted);
-    const double own = cost_of_distance * off * off + cost_of_layer * n;
-    std::array<Step, 3> steps;
-    const std::array<std::uint32_t, 3> numbers{n, n - std::min(n, 1u), n + 1};
-    for (std::size_t s = 0; s < steps.size(); ++s) {
-        const std::uint32_t before = std::clamp(numbers[s], range_before.least, range_before.most);
-        const double change = std::abs(double(n) - double(before));
-        steps[s] = {before, own + (change > 0 ? cost_of_change(rays[k - 1], rays[k], before, n) * change * change : 0)};
-    }
-    return steps;
-}
-
 /// The cheapest ways to the numbers of the rays of one element.
 class NumberSearch {
 public:
     /// rays: the first one stands at the end again.
-    explicit NumberSearch(std::span<const RayChoices> rays) : rays_(rays), steps_(rays.size()), ways_(rays.size()) {
-        for (std::size_t k = 0; k < rays.size(); ++k) {
-            const LayerRange& range = rays[k].end->layers;
-            ways_[k].resize(range.most - range.least + std::size_t{1});
-            for (std::uint32_t n = range.least; k > 0 && n <= range.most; ++n)
-                steps_[k].push_back(steps_to(rays, k, n));
-        }
+    explicit NumberSearch(std::span<const RayChoices> rays) : rays_(rays), ways_(rays.size()) {
+        for (std::size_t k = 0; k < rays.size(); ++k) ways_[k].resize(range(k).most - range(k).least + std::size_t{1});
     }
 
     /// Returns the cheapest numbers: the sequence begins and ends with each number of the first ray in turn.
     std::vector<std::uint32_t> run() && {
         double least = HUGE_VAL;
         std::vector<std::uint32_t> best;
-        for (std::uint32_t held = rays_[0].end->layers.least; held <= rays_[0].end->layers.most; ++held) {
+        for (std::uint32_t held = range(0).least; held <= range(0).most; ++held) {
             const double cost = cost_from(held);
             if (!best.empty() && !(cost < least)) continue;
             least = cost;
@@ -127,31 +100,43 @@ private:
         std::uint32_t before;
     };
     std::span<const RayChoices> rays_;
-    std::vector<std::vector<std::array<Step, 3>>> steps_;  ///< by ray and number
-    std::vector<std::vector<Way>> ways_;                   ///< by ray and number
+    std::vector<std::vector<Way>> ways_;  ///< by ray and number
+
+    const LayerRange& range(std::size_t k) const { return rays_[k].end->layers; }
+    Way& way(std::size_t k, std::uint32_t n) { return ways_[k][n - range(k).least]; }
 
     /// Finds the ways from this number of the first ray, and returns the cost of the one back to it. Numbers to which none
     /// leads cost infinitely much.
     double cost_from(std::uint32_t held) {
-        for (Way& way : ways_[0]) way = {HUGE_VAL, held};
-        ways_[0][held - rays_[0].end->layers.least].cost = 0;
+        for (Way& first : ways_[0]) first = {HUGE_VAL, held};
+        way(0, held).cost = 0;
         for (std::size_t k = 1; k < rays_.size(); ++k)
-            for (std::size_t n = 0; n < ways_[k].size(); ++n) {
-                Way& way = ways_[k][n];
-                way = {HUGE_VAL, steps_[k][n][0].before};
-                for (const Step& step : steps_[k][n]) {
-                    const double cost = ways_[k - 1][step.before - rays_[k - 1].end->layers.least].cost + step.cost;
-                    if (cost < way.cost) way = {cost, step.before};
-                }
-            }
-        return ways_.back()[held - rays_[0].end->layers.least].cost;
+            for (std::uint32_t n = range(k).least; n <= range(k).most; ++n) way(k, n) = cheapest_way(k, n);
+        return way(rays_.size() - 1, held).cost;
+    }
+
+    /// Returns the cheapest way to number n of ray k: from the same number, the one below or the one above, or those nearest
+    /// to them.
+    Way cheapest_way(std::size_t k, std::uint32_t n) {
+        const double off = double(n) - double(rays_[k].end->wanted);
+        const double own = cost_of_distance * off * off + cost_of_layer * n;
+        Way cheapest{HUGE_VAL, range(k - 1).least};
+        for (const std::uint32_t nearest : {n, n - std::min(n, 1u), n + 1}) {
+            const std::uint32_t before = std::clamp(nearest, range(k - 1).least, range(k - 1).most);
+            const double change = std::abs(double(n) - double(before));
+            const double of_change =
+                change > 0 ? cost_of_change(rays_[k - 1], rays_[k], before, n) * change * change : 0;
+            const double cost = way(k - 1, before).cost + (own + of_change);
+            if (cost < cheapest.cost) cheapest = {cost, before};
+        }
+        return cheapest;
     }
 
     /// Returns the numbers on the way to this number of the last ray.
     std::vector<std::uint32_t> numbers_to(std::uint32_t held) const {
         std::vector<std::uint32_t> numbers(rays_.size(), held);
         for (std::size_t k = rays_.size() - 1; k > 0; --k)
-            numbers[k - 1] = ways_[k][numbers[k] - rays_[k].end->layers.least].before;
+            numbers[k - 1] = ways_[k][numbers[k] - range(k).least].before;
         return numbers;
     }
 };
