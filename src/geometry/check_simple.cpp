@@ -68,13 +68,16 @@ std::string advice_on_separate_sections(const Element& e, const Element& f) {
         a.lower.x, a.upper.x);
 }
 
+/// Throws InputError for the place where two edges meet: of a point of the first one, where they belong to two elements.
 [[noreturn]] void refuse(const OutlineEdge& first, const OutlineEdge& second, Point at, const std::string& verb) {
     const Element &e = *first.element, &f = *second.element;
     const std::string reason =
         &e == &f ? fmt::format("the outline {} itself: {} and {}", verb, describe(first), describe(second))
                  : fmt::format("the outline {} that of '{}' ({}): {} and there {}; --union joins them{}", verb, f.name,
                                f.file, describe(first), describe(second), advice_on_separate_sections(e, f));
-    throw InputError({e.file, line_near(e, first.index, false), at}, reason);
+    const std::size_t line =
+        &e != &f && at == first.b() ? line_near(e, first.next(), true) : line_near(e, first.index, false);
+    throw InputError({e.file, line, at}, reason);
 }
 
 /// Returns the point where two edges cross, rounded, for messages only.
@@ -101,8 +104,9 @@ void check_apart(const OutlineEdge& e, const OutlineEdge& f) {
         refuse(e, f, crossing_point(e, f), "crosses");
     if (a_side == 0 && is_between(a, c, d)) refuse(e, f, a, "touches");
     if (b_side == 0 && is_between(b, c, d)) refuse(e, f, b, "touches");
-    if (c_side == 0 && is_between(c, a, b)) refuse(e, f, c, "touches");
-    if (d_side == 0 && is_between(d, a, b)) refuse(e, f, d, "touches");
+    const auto &first = e.element == f.element ? e : f, &second = e.element == f.element ? f : e;
+    if (c_side == 0 && is_between(c, a, b)) refuse(first, second, c, "touches");
+    if (d_side == 0 && is_between(d, a, b)) refuse(first, second, d, "touches");
 }
 
 /// Throws InputError where consecutive edges a-b and b-c share more than b.

@@ -23,6 +23,12 @@ PointRun lone_surface(const OutlinesOfFile& file) {
     return run;
 }
 
+/// Returns whether the outline of a file is a plate, which needs four corners.
+bool is_plate(const OutlinesOfFile& file) {
+    const std::vector<SourcePoint>& points = file.outlines[0].points;
+    return points.size() >= 4 && is_side_of_plate(points);
+}
+
 /// Returns the outline of two surfaces that may run either way; nothing where they do not have both ends in common.
 std::optional<std::vector<SourcePoint>> joined(PointRun a, PointRun b) {
     if (a.empty() || b.empty()) return std::nullopt;
@@ -45,7 +51,7 @@ void join_files(std::vector<OutlinesOfFile>& files) {
     for (OutlinesOfFile& file : files) {
         std::optional<std::vector<SourcePoint>> run =
             result.empty() ? std::nullopt : joined(lone_surface(result.back()), lone_surface(file));
-        if (!run) {
+        if (!run || (is_plate(result.back()) && is_plate(file))) {
             result.push_back(std::move(file));
             continue;
         }

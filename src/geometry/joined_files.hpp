@@ -15,7 +15,7 @@ struct OutlinesOfFile {
 };
 
 /// Joins two files in a row of which each holds one open surface, and which have both ends in common, to one: the first
-/// keeps its name and gets the outline of both.
+/// keeps its name and gets the outline of both. Two plates, each of which begins and ends at corners, stay two.
 void join_files(std::vector<OutlinesOfFile>& files);
 
 }  // namespace lamina::geometry

@@ -15,6 +15,7 @@
 #include "core/segments.hpp"
 #include "geometry/folds.hpp"
 #include "geometry/half_section.hpp"
+#include "geometry/point_runs.hpp"
 #include "geometry/scatter.hpp"
 #include "geometry/tail_crossing.hpp"
 
@@ -255,20 +256,6 @@ void check_closed_once(const SourcePoints& points, const std::string& file) {
         fmt::format("the outline is back at its start {} on line {}, but goes on to line {}: a point out of "
                     "place, or a second body without a line that divides them",
                     coordinates(first.at), again->line, last.line));
-}
-
-/// Returns whether one edge runs along the whole closing edge from the last point back to the first, the other way: the
-/// other long side of a plate, whose file begins and ends at two of its corners.
-bool is_side_of_plate(const SourcePoints& points) {
-    constexpr double min_share = 0.9, max_slope = 0.05;
-    const Point closing = points.front().at - points.back().at;
-    for (std::size_t i = 1; i < points.size(); ++i) {
-        const Point edge = points[i].at - points[i - 1].at;
-        const double along = -dot(edge, closing);
-        if (along > min_share * squared_length(closing) && std::abs(cross(edge, closing)) < max_slope * along)
-            return true;
-    }
-    return false;
 }
 
 /// Throws InputError for an outline that is too far open, which says what may be done.

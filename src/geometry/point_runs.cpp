@@ -29,6 +29,18 @@ bool are_two_surfaces(PointSpan a, PointSpan b, double size) {
     return std::min(start_distance, end_distance) <= 0.1 * size && std::max(start_distance, end_distance) <= 0.5 * size;
 }
 
+bool is_side_of_plate(std::span<const SourcePoint> points) {
+    constexpr double min_share = 0.9, max_slope = 0.05;
+    const Point closing = points.front().at - points.back().at;
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        const Point edge = points[i].at - points[i - 1].at;
+        const double along = -dot(edge, closing);
+        if (along > min_share * squared_length(closing) && std::abs(cross(edge, closing)) < max_slope * along)
+            return true;
+    }
+    return false;
+}
+
 std::vector<SourcePoint> join_surfaces(PointSpan upper, PointSpan lower) {
     std::vector<SourcePoint> run;
     run.reserve(upper.size() + lower.size());

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "geometry/coordinate_blocks.hpp"
@@ -13,6 +14,10 @@ namespace lamina::geometry {
 /// Returns whether the ends of a run lie so near to each other that closing it makes a body. A surface from the leading
 /// to the trailing edge is none.
 bool is_loop(PointSpan points);
+
+/// Returns whether one edge runs along the whole closing edge from the last point back to the first, the other way: the
+/// other long side of a plate, whose file begins and ends at two of its corners.
+bool is_side_of_plate(std::span<const SourcePoint> points);
 
 /// Returns whether two runs have both ends in common, at least about, and run the same way, as the upper and the lower
 /// surface do.

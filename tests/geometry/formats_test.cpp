@@ -271,6 +271,23 @@ TEST(TwoFiles, OfUpperAndLowerSurfaceAreOneElement) {
         }
 }
 
+TEST(TwoFiles, OfPlatesThatBeginAtACornerAreTwoElements) {
+    const test::TemporaryFolder folder;
+    const auto row = [](std::size_t, Point p) { return fmt::format("{} {}", p.x, p.y); };
+    const auto plate = [&](const std::string& name, double y, std::size_t first) {
+        std::vector<Point> points{{0, y + 0.02}, {0, y}, {1, y}, {1, y + 0.02}};
+        std::rotate(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(first), points.end());
+        return folder.write(name, lines_of(points, row)).string();
+    };
+    for (std::size_t first = 0; first < 4; ++first) {
+        const std::vector<std::string> inputs{plate("upper.dat", 0, first), plate("lower.dat", -0.0201, first)};
+        const Geometry geometry = read_geometry(inputs, {});
+        ASSERT_EQ(geometry.elements.size(), 2u) << first;
+        EXPECT_EQ(geometry.elements[0].name, "upper");
+        EXPECT_EQ(geometry.elements[1].name, "lower");
+    }
+}
+
 TEST(ReferenceBox, IsThatBeforeElementsAreTurned) {
     const auto width = [](const std::string& change, const std::string& input = "naca:0012") {
         GeometryOptions options;

@@ -217,7 +217,11 @@ TEST(Refusal, ElementsThatMeet) {
         return "accepted";
     };
     EXPECT_NE(message("o\n3 1\n6 1\n6 2\n3 2\n3 1\n").find("crosses that of 'other'"), std::string::npos);
-    EXPECT_NE(message("o\n4 1\n6 1\n6 2\n4 1\n").find("touches that of 'other'"), std::string::npos);
+    // The place is that of the point that touches, whichever file comes first.
+    EXPECT_NE(message("o\n6 2\n4 1\n6 1\n6 2\n").find("other.dat:3: the outline touches that of 'box'"),
+              std::string::npos);
+    EXPECT_NE(message("o\n4 -1\n6 -1\n6 5\n4 5\n4 -1\n").find("box.dat:3: the outline touches that of 'other'"),
+              std::string::npos);
     EXPECT_NE(message("o\n1 1\n2 1\n2 2\n1 1\n").find("'other' lies inside 'box'"), std::string::npos);
     EXPECT_NE(message("o\n-1 -1\n6 -1\n6 6\n-1 6\n-1 -1\n").find("'box' lies inside 'other'"), std::string::npos);
     EXPECT_EQ(message("o\n5 1\n6 1\n6 2\n5 1\n"), "accepted");
