@@ -89,14 +89,24 @@ RayLine image_of_ray(const RayLine& ray, const RayLine& before, double y) {
 }
 
 /// Makes the rays of a body with a line of symmetry images of each other. Those that stand where the line meets the body,
-/// the first one and the last one above, lie in the line. Returns how many rays are not below it.
+/// the first one and the last one above, lie in the line. Rays of a wake along the line come first, from its end on. Returns
+/// how many rays are not below it.
 std::size_t mirror_rays(const Element& element, double y, std::vector<RayLine>& rays) {
     constexpr double rounding = 1e-6;  // a ray of a fan that rises less lies in the line
     const Point tail = element.points.front();
-    std::vector<RayLine> above;
+    // The last rays are those of the wake, out to its end and back on its left, which is above.
+    std::vector<RayLine> above(
+        std::find_if(rays.begin(), rays.end(), [](const RayLine& ray) { return ray.place == RayPlace::wake_end; }),
+        rays.end());
+    const bool has_wake = !above.empty();
+    if (has_wake) above.front().direction = {1, 0};
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const RayLine& ray = rays[i];
-        if (ray.origin.y < y) continue;
+        if (ray.place != RayPlace::wall || ray.origin.y < y) continue;
+        if (has_wake && ray.origin == tail) {
+            if (i == 0) above.push_back(ray);
+            continue;
+        }
         if (ray.origin.y > y) {
             above.push_back(ray);
             continue;
@@ -295,7 +305,9 @@ void add_wakes(const Walls& walls, const LayerOptions& options, Rays& rays) {
     }
     for (const DividedWake& wake : wakes) {
         rays.wake_lengths[wake.element] = wake.distances.back();
-        if (!wake.core.chains.empty()) rays.cores.push_back(wake.core);
+        if (wake.core.chains.empty()) continue;
+        rays.cores.push_back(wake.core);
+        if (geometry.elements[wake.element].is_mirrored) keep_left_half(*geometry.symmetry, rays.cores.back());
     }
 }
 

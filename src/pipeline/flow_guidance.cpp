@@ -240,6 +240,7 @@ void leave_out_images(const Geometry& geometry, FlowGuidance& guidance, layers::
     if (!guidance.frictions.empty()) guidance.frictions.resize(elements);
     if (!growth.first_heights.empty()) growth.first_heights.resize(elements);
     std::erase_if(growth.least_heights, is_of_image);
+    std::erase_if(growth.wakes, is_of_image);
     std::erase_if(guidance.spacings, is_of_image);
     std::erase_if(guidance.shocks, [&](const FlowShock& shock) {
         return std::none_of(geometry.elements.begin(), geometry.elements.end(),

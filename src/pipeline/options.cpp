@@ -192,11 +192,6 @@ void validate(const CaseOptions& options) {
         if (options.conditions.alphas)
             throw OptionError("wake_layers", "layers go on along the wake of one angle of attack: give one alpha");
         if (!options.use_flow) throw OptionError("wake_layers", "needs use_flow, which finds the wakes");
-        if (options.far_field.symmetry)
-            throw OptionError(
-                "wake_layers",
-                "layers do not go on along wakes beside a line of symmetry: leave it out, or mesh the whole "
-                "configuration");
         if (options.far_field.pitch)
             throw OptionError("wake_layers", "layers do not go on along wakes behind a row of blades: leave it out");
         if (options.layer.layers) throw OptionError("wake_layers", "needs layers up to isotropy: layers auto");

@@ -85,17 +85,17 @@ private:
     }
 
     /// Adds the vertices of a base before a wake, where no rays stand, to the end of the wall that begins and ends at
-    /// its corners.
+    /// its corners. That on a line of symmetry, where the wall of half a body begins, comes before the wall.
     void place_base(const WakeCore& core) {
         std::vector<VertexId>& wall = layer_.walls[core.element];
         const std::vector<Point>& base = core.chains.front();
         std::vector<VertexId>& placed = base_of_element_[core.element];
-        placed.push_back(wall.back());
-        for (std::size_t i = 1; i + 1 < base.size(); ++i) {
-            wall.push_back(add_point(base[i], 0));
-            placed.push_back(wall.back());
-        }
-        placed.push_back(wall.front());
+        const bool is_half = rays_.is_open(core.element);
+        if (!is_half) placed.push_back(wall.back());
+        for (std::size_t i = is_half ? 0 : 1; i + 1 < base.size(); ++i) placed.push_back(add_point(base[i], 0));
+        const auto first = placed.begin() + !is_half;
+        wall.insert(is_half ? wall.begin() : wall.end(), first, placed.end());
+        placed.push_back(is_half ? wall[placed.size()] : wall.front());
     }
 
     /// Adds the division points of the edge behind a corner of a front to the end of the wall, if that edge is the
@@ -153,14 +153,15 @@ private:
         for (std::size_t e = 0; e < set_.elements(); ++e) {
             std::vector<VertexId> way_out;
             bool ended = false;
-            for (std::size_t i = set_.begin[e]; i < set_.begin[e + 1]; ++i) {
+            for (std::size_t i = set_.begin[e]; i < rays_.domain_end(e); ++i) {
                 const RayLine& ray = set_.lines[i];
                 if (ray.place == RayPlace::wall) continue;
-                const bool shared = ended && ray.origin == layer_.points[way_out.back().index()];
+                const bool has_way_out = ended && !way_out.empty();  // a wake along a line of symmetry has none
+                const bool shared = has_way_out && ray.origin == layer_.points[way_out.back().index()];
                 origin_of_ray_[i] = shared ? way_out.back() : add_point(ray.origin, 0);
-                if (ended) {
+                if (has_way_out) {
                     way_out.pop_back();
-                } else {
+                } else if (!ended) {
                     ended = ray.place == RayPlace::wake_end;
                     if (!ended) way_out.push_back(origin_of_ray_[i]);
                 }
@@ -174,18 +175,22 @@ private:
             LayerCore& placed =
                 layer_.cores.emplace_back(LayerCore{core.element, {base_of_element_[core.element]}, core.stations});
             placed.chains.resize(core.chains.size());
-            // Vertex k of the wake is the origin of ray out + k and of ray back - k.
-            const std::size_t back = set_.begin[core.element + 1] - 1;
+            // Vertex k of the wake is the origin of ray out + k and of ray back - k; of the latter alone where half of it is
+            // above a line of symmetry, on which chains begin then.
+            const bool is_half = rays_.is_open(core.element);
+            std::size_t back = set_.begin[core.element + 1] - 1;
+            if (is_half)
+                for (back = set_.begin[core.element]; set_.lines[back + 1].place != RayPlace::wall;) ++back;
             std::size_t out = back;
-            while (set_.lines[out - 1].place != RayPlace::wall) --out;
+            while (!is_half && set_.lines[out - 1].place != RayPlace::wall) --out;
             std::size_t k = 0;
             for (std::size_t c = 1; c < core.chains.size(); ++c) {
                 const bool station = core.stations[k] == c;
                 std::vector<VertexId>& chain = placed.chains[c];
                 for (std::size_t i = 0; i < core.chains[c].size(); ++i) {
-                    const bool first = i == 0, last = i + 1 == core.chains[c].size();
+                    const bool last = i + 1 == core.chains[c].size(), first = i == 0 && !(is_half && last);
                     const std::vector<VertexId>& before = placed.chains[c - 1];
-                    if (!first && !last)
+                    if (!last && (!first || is_half))
                         chain.push_back(add_point(core.chains[c][i], c));
                     else if (station)
                         chain.push_back(origin_of_ray_[first ? out + k : back - k]);
@@ -369,6 +374,23 @@ std::vector<Segment> sorted_together(const std::vector<std::vector<Segment>>& ed
     return together;
 }
 
+/// Adds the edges of a wake along a line of symmetry, and of the space behind a base before it, on that line.
+void add_wake_on_symmetry(const Layer& layer, std::size_t element, std::vector<Segment>& edges) {
+    const std::vector<Ray>& rays = layer.rays[element];
+    std::vector<VertexId> line;  // from the trailing edge to the end of the wake
+    for (const LayerCore& core : layer.cores)
+        if (core.element == element)
+            for (const std::vector<VertexId>& chain : core.chains) line.push_back(chain.front());
+    const auto is_behind = [&](const Ray& ray) {
+        return ray.place == RayPlace::wall || (!line.empty() && ray.origin == line.back());
+    };
+    const auto end = std::find_if(rays.begin(), rays.end(), is_behind);
+    if (end == rays.begin()) return;
+    if (line.empty()) line.push_back(end->origin);
+    for (auto ray = end; ray != rays.begin();) line.push_back((--ray)->origin);
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) edges.push_back({line[i], line[i + 1]});
+}
+
 LayerEdges layer_edges(const Layer& layer) {
     LayerEdges result;
     result.walls = edges_of(layer.walls, layer);
@@ -379,6 +401,7 @@ LayerEdges layer_edges(const Layer& layer) {
     for (std::size_t e = 0; e < layer.rays.size(); ++e) {
         if (!layer.is_open(e) || layer.rays[e].empty()) continue;
         std::vector<Segment>& ends = layer.is_outer(e) ? result.sides : result.symmetry;
+        if (!layer.is_outer(e)) add_wake_on_symmetry(layer, e, ends);
         const Ray &first = layer.rays[e].front(), &last = layer.rays[e].back();
         for (std::uint32_t n = 1; n <= first.layers; ++n) ends.push_back({first.vertex(n - 1), first.vertex(n)});
         for (std::uint32_t n = 1; n <= last.layers; ++n) ends.push_back({last.vertex(n), last.vertex(n - 1)});

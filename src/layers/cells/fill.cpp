@@ -87,12 +87,13 @@ public:
             const std::size_t n = lower.size();
             if (n != upper.size()) {
                 add_strip(lower, upper);
-            } else if (lower.front() != upper.front()) {
-                add_cells_between(lower, upper, layer);
             } else {
-                cells_.triangles.push_back({{lower[0], upper[1], lower[1]}});
-                add_cells_between(std::span(lower).subspan(1, n - 2), std::span(upper).subspan(1, n - 2), layer);
-                cells_.triangles.push_back({{lower[n - 2], upper[n - 2], lower[n - 1]}});
+                const bool first_joins = lower.front() == upper.front(), last_joins = lower.back() == upper.back();
+                const std::size_t apart = n - first_joins - last_joins;
+                if (first_joins) cells_.triangles.push_back({{lower[0], upper[1], lower[1]}});
+                add_cells_between(std::span(lower).subspan(first_joins, apart),
+                                  std::span(upper).subspan(first_joins, apart), layer);
+                if (last_joins) cells_.triangles.push_back({{lower[n - 2], upper[n - 2], lower[n - 1]}});
             }
             cells_.triangle_layer.resize(cells_.triangles.size(), layer);
         }

@@ -208,6 +208,14 @@ bool lies_on_edge(const DividedWake& wake, Point p) {
     return false;
 }
 
+/// Puts the line of a wake into a line of symmetry, with the same heights on both sides.
+void put_on_symmetry(double y, std::vector<WakePoint>& line) {
+    for (WakePoint& point : line) {
+        point.at.y = y;
+        point.left = point.right = std::max(point.left, point.right);
+    }
+}
+
 }  // namespace
 
 std::vector<DividedWake> divide_wakes(const Geometry& geometry, const LayerGrowth& growth,
@@ -229,6 +237,10 @@ std::vector<DividedWake> divide_wakes(const Geometry& geometry, const LayerGrowt
                          .edge = stretch(outline, *edge)};
         std::vector<WakePoint> points = line.points;
         points.front().at = midpoint(wake.edge.front(), wake.edge.back());
+        if (element.is_mirrored) {
+            if (wake.edge[wake.edge.size() / 2] != outline.front()) continue;
+            put_on_symmetry(*geometry.symmetry, points);
+        }
         const MeasuredLine measured(points);
         const double depth = core_length * distance(wake.edge.front(), wake.edge.back());
         if (depth > max_core_share * std::min(measured.length(), ends[i])) continue;
@@ -310,11 +322,16 @@ bool shorten_bare_wakes(const RaySet& set, std::span<const std::uint32_t> counts
     bool changed = false;
     for (const DividedWake& wake : wakes) {
         // The wake's rays end the element's. The ray of vertex k on the way out is first + k, on the way back last - k.
-        const std::size_t end = wake.vertices.size() - 1, last = set.begin[wake.element + 1] - 1,
-                          first = last - 2 * end;
+        const std::size_t end = wake.vertices.size() - 1, begin = set.begin[wake.element],
+                          last = set.begin[wake.element + 1] - 1, first = last - 2 * end;
+        // Along a line of symmetry they begin with that of the end, and those below are images.
+        const bool is_half = set.lines[begin].place == RayPlace::wake_end;
+        const auto is_bare = [&](std::size_t k) {
+            return is_half ? counts[begin + end - k] == 0 : counts[first + k] == 0 || counts[last - k] == 0;
+        };
         std::size_t kept = 0;
-        while (kept < end && counts[first + kept] > 0 && counts[last - kept] > 0) ++kept;
-        const bool bare_corner = counts[first - 1] == 0 || counts[set.begin[wake.element]] == 0;
+        while (kept < end && !is_bare(kept)) ++kept;
+        const bool bare_corner = is_half ? counts[begin + end + 1] == 0 : counts[first - 1] == 0 || counts[begin] == 0;
         if (kept == end && !bare_corner) continue;
         ends[wake.line] = bare_corner || kept == 0 ? 0 : wake.distances[kept - 1];
         changed = true;
@@ -417,6 +434,17 @@ WakeCore make_core(std::size_t element, std::span<const Point> base, Point end, 
     core.stations.push_back(core.chains.size());
     core.chains.push_back({end});
     return core;
+}
+
+void keep_left_half(double y, WakeCore& core) {
+    for (std::vector<Point>& chain : core.chains) {
+        const std::size_t half = chain.size() / 2;
+        Point first = chain[half];
+        if (chain.size() % 2 == 0) first = midpoint(chain[half - 1], chain[half]);
+        chain.erase(chain.begin(), chain.begin() + static_cast<std::ptrdiff_t>(half));
+        if (chain.front() != first) chain.insert(chain.begin(), first);
+        chain.front().y = y;
+    }
 }
 
 }  // namespace lamina::layers
