@@ -135,13 +135,22 @@ void require_straight(const MeshCase& mesh_case) {
         throw UsageError("option --order: only 'lamina mesh', 'family', 'batch' and 'case pyfr' make curved cells");
 }
 
+namespace {
+
+/// Adds to the warnings of the result which markers the file loses.
+void add_warnings_of_lost_markers(const MeshCase& mesh_case, const std::filesystem::path& file, MeshResult& result) {
+    std::vector<Warning> lost = lost_marker_warnings(result.mesh.markers, file, write_options(mesh_case));
+    std::move(lost.begin(), lost.end(), std::back_inserter(result.warnings));
+}
+
+}  // namespace
+
 void add_warnings_of_readers(const MeshCase& mesh_case, const MeshDestination& destination, MeshResult& result) {
     std::vector<Warning> of_readers = destination.warnings(result);
     std::move(of_readers.begin(), of_readers.end(), std::back_inserter(result.warnings));
     for (const RunFile& written : destination.files) {
-        if (format_name(written.path, write_options(mesh_case)).empty()) continue;
-        std::vector<Warning> lost = lost_marker_warnings(result.mesh.markers, written.path, write_options(mesh_case));
-        std::move(lost.begin(), lost.end(), std::back_inserter(result.warnings));
+        if (!format_name(written.path, write_options(mesh_case)).empty())
+            add_warnings_of_lost_markers(mesh_case, written.path, result);
     }
 }
 
@@ -226,6 +235,7 @@ void stream_mesh_of_case(const MeshCase& mesh_case, const MeshDestination& desti
     StreamedMesh streamed = stream_mesh(
         mesh_case.inputs, run.options, [&] { return open_mesh_sink(output, write_options(mesh_case)); },
         [&](const auto& event) { progress.begin(event); });
+    add_warnings_of_lost_markers(mesh_case, output, streamed.result);
     print_warnings(streamed.result.warnings);
     require_promised_angles(streamed.result.check, mesh_case);
 

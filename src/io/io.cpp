@@ -110,7 +110,8 @@ void require_shareable(const fs::path& file, const WriteOptions& options) {
 std::unique_ptr<MeshSink> open_mesh_sink(const fs::path& file, const WriteOptions& options) {
     require_streamable(file, options);
     check_writable(file, options);
-    return open_layout_sink(format_of(file, options).layout(file), file);
+    const FormatRow& format = format_of(file, options);
+    return open_layout_sink(format.layout(file), file, format.internal_markers);
 }
 
 std::vector<fs::path> output_files(const fs::path& file, const WriteOptions& options) {

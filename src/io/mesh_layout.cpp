@@ -5,6 +5,7 @@
 
 #include "core/atomic_file.hpp"
 #include "io/binary_output.hpp"
+#include "io/mesh_parts.hpp"
 #include "io/section_file.hpp"
 
 namespace lamina::io {
@@ -13,8 +14,8 @@ namespace {
 
 class LayoutSink : public MeshSink {
 public:
-    LayoutSink(std::unique_ptr<MeshLayout> layout, std::filesystem::path file)
-        : layout_(std::move(layout)), file_(std::move(file)) {
+    LayoutSink(std::unique_ptr<MeshLayout> layout, std::filesystem::path file, bool has_internal_markers)
+        : layout_(std::move(layout)), file_(std::move(file)), has_internal_markers_(has_internal_markers) {
         for (std::size_t i = 0; i < layout_->sections(); ++i) sections_.push_back(std::make_unique<SectionFile>(file_));
     }
 
@@ -24,9 +25,10 @@ public:
     }
     void finish(const MeshCounts& counts, std::span<const Marker> markers,
                 std::span<const Segment> constraints) override {
-        layout_->require_names(markers);
         counts_ = counts;
         markers_.assign(markers.begin(), markers.end());
+        if (!has_internal_markers_) markers_ = markers_of_kind(markers, false);
+        layout_->require_names(markers_);
         constraints_.assign(constraints.begin(), constraints.end());
     }
     void commit() override {
@@ -49,6 +51,7 @@ public:
 private:
     std::unique_ptr<MeshLayout> layout_;
     std::filesystem::path file_;
+    bool has_internal_markers_;
     std::vector<std::unique_ptr<SectionFile>> sections_;
     MeshCounts counts_;
     std::vector<Marker> markers_;
@@ -61,8 +64,9 @@ void FileStretch::write_records(std::ostream& out) const {
     if (count > 0) io::write_records(out, count, record_bytes, fill);
 }
 
-std::unique_ptr<MeshSink> open_layout_sink(std::unique_ptr<MeshLayout> layout, const std::filesystem::path& file) {
-    return std::make_unique<LayoutSink>(std::move(layout), file);
+std::unique_ptr<MeshSink> open_layout_sink(std::unique_ptr<MeshLayout> layout, const std::filesystem::path& file,
+                                           bool has_internal_markers) {
+    return std::make_unique<LayoutSink>(std::move(layout), file, has_internal_markers);
 }
 
 }  // namespace lamina::io

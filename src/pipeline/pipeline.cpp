@@ -89,7 +89,10 @@ MeshResult generate_mesh(const std::vector<std::string>& inputs, const CaseOptio
 StreamedMesh stream_mesh(const std::vector<std::string>& inputs, const CaseOptions& options, const OpenSink& open_sink,
                          const Progress& progress) {
     refuse_budget(options);
-    if (!options.lines.empty()) throw OptionError("line", "lines need the mesh as a whole: leave --stream out");
+    if (std::any_of(options.lines.begin(), options.lines.end(), [](const InternalLine& l) { return l.two_sided; }))
+        throw OptionError("line",
+                          "a two-sided line doubles vertices of cells that have been written by then: leave --stream "
+                          "out, or the word two-sided");
     if (options.order > 1) throw OptionError("order", "curved cells need the mesh as a whole: leave --stream out");
     if (!options.geometry.sheets.empty())
         throw OptionError("sheet", "sheets need the mesh as a whole: leave --stream out");

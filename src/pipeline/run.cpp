@@ -147,7 +147,7 @@ MadeMesh make_mesh(const FittedLayer& fitted, const CaseOptions& options, MeshDr
     require_made_within(budget, pieces.counts);
     take_cells(layer, pieces, result);
     result.mesh.markers = std::move(markers);
-    complete_walls_without_thickness(options.lines, min_angle_deg, made);
+    if (!pieces.sink) complete_walls_without_thickness(options.lines, min_angle_deg, made);
     const WorstPlaces places{check.widest().middle, check.narrowest().middle, pieces.summary.oversized.middle,
                              made.narrow, min_angle_deg};
     driver.lead([&] {

@@ -129,6 +129,28 @@ TEST(Stream, EndsWhereTheSinkFails) {
         }
 }
 
+TEST(Stream, KeepsLinesOfOneSide) {
+    const TemporaryFolder folder;
+    CaseOptions options = quick_options(6);
+    options.decoupling.pieces_target = 1000;
+    options.lines = {{"rake", {{0.3, 0.3}, {0.3, 0}}}, {"sensor", {{0.1, 0.2}, {0.8, 0.4}}}};
+    const MeshResult whole = generate_mesh({"naca:0012:60"}, options);
+    EXPECT_TRUE(whole.check.valid());
+    for (const std::string format : {".su2", ".vtu"}) {
+        write_mesh(whole.mesh, folder / ("whole" + format));
+        const StreamedMesh streamed =
+            stream_mesh({"naca:0012:60"}, options, [&] { return open_mesh_sink(folder / ("stream" + format)); });
+        streamed.sink->commit();
+        EXPECT_TRUE(folder.read("stream" + format) == folder.read("whole" + format)) << format;
+        EXPECT_EQ(streamed.hash, mesh_hash(whole.mesh));
+        EXPECT_EQ(lost_marker_warnings(streamed.result.mesh.markers, "stream" + format).size(), format == ".su2");
+        EXPECT_EQ(streamed.result.check.unexcused_cells, whole.check.unexcused_cells);
+    }
+    options.lines.front().two_sided = true;
+    EXPECT_THROW(stream_mesh({"naca:0012:60"}, options, [&] { return open_mesh_sink(folder / "stream.su2"); }),
+                 OptionError);
+}
+
 TEST(Stream, RefusesFormatsThatAreWrittenAsAWhole) {
     EXPECT_THROW(require_streamable("mesh.msh"), UsageError);
     EXPECT_THROW(require_streamable("mesh.unknown"), UsageError);
