@@ -8,7 +8,9 @@
 
 #include <lamina/layers.hpp>
 
+#include "core/angles.hpp"
 #include "core/bounding_box.hpp"
+#include "core/reproducible_math.hpp"
 #include "geometry/row.hpp"
 #include "geometry/symmetry.hpp"
 #include "layers/directions/corners.hpp"
@@ -65,14 +67,25 @@ std::vector<double> heights_at_vertices(std::span<const RayVertex> outline, std:
     return result;
 }
 
+/// Returns the foot of a line at this vertex of a wall; null where there is none.
+const LineFoot* foot_at(Point vertex, std::span<const LineFoot> feet) {
+    const auto found = std::find_if(feet.begin(), feet.end(), [&](const LineFoot& foot) { return foot.at == vertex; });
+    return found == feet.end() ? nullptr : &*found;
+}
+
 /// Adds the rays of an outer wall or of an obstacle, as a closed outline: normals of its straight parts, and bisectors at
-/// its corners, of which those of outer walls are beyond the domain.
-void add_outline(const std::vector<Point>& p, RaySet& set) {
+/// its corners, of which those of outer walls are beyond the domain. Rays at feet run along their lines.
+void add_outline(const std::vector<Point>& p, std::span<const LineFoot> feet, RaySet& set) {
+    const double least_cosine = core::cos_reproducible(core::radians(most_lean_of_line_deg));
     for (std::size_t i = 0; i < p.size(); ++i) {
         const Point before = unit(p[i] - p[i > 0 ? i - 1 : p.size() - 1]);
         const Point after = unit(p[i + 1 < p.size() ? i + 1 : 0] - p[i]);
         const bool is_end = before == -after;  // of a line without thickness
         set.lines.push_back({p[i], is_end ? before : -perpendicular(unit(before + after))});
+        const LineFoot* foot = foot_at(p[i], feet);
+        if (!foot || dot(foot->direction, set.lines.back().direction) < least_cosine) continue;
+        set.lines.back().direction = foot->direction;
+        set.lines.back().line_room = foot->room;
     }
     set.begin.push_back(set.lines.size());
 }
@@ -176,7 +189,7 @@ void add_images(const Walls& walls, RaySet& set) {
                 image_of_ray(set.lines[i], set.lines[i > begin ? i - 1 : end - 1], *walls.geometry.symmetry));
         set.begin.push_back(set.lines.size());
     }
-    for (const std::vector<Point>& outline : walls.obstacles.outlines) add_outline(outline, set);
+    for (const std::vector<Point>& outline : walls.obstacles.outlines) add_outline(outline, {}, set);
 }
 
 /// Returns the rays of these walls. `shown` becomes the number of those in the domain, for each body.
@@ -195,13 +208,15 @@ RaySet rays_of(const Walls& walls, std::span<const DividedWake> wakes, const Lay
             leave_out_sharp_corners(own.first_height, outline);
         set_first_heights(first_heights_on_wall(own, 0, element.points), element.points, own.first_height, outline);
         set_least_heights(own.least_heights, outline);
+        for (RayVertex& vertex : outline)
+            if (vertex.place == RayPlace::wall) vertex.foot = foot_at(vertex.at, walls.obstacles.feet);
         const std::vector<RayLine> upright = make_rays(outline, kind, options, own);
         std::vector<RayLine> rays = make_rays(outline, kind, options, own, heights_at_vertices(outline, upright, own));
         shown.push_back(element.is_mirrored ? mirror_rays(element, *geometry.symmetry, rays) : rays.size());
         set.lines.insert(set.lines.end(), rays.begin(), rays.end());
         set.begin.push_back(set.lines.size());
     }
-    for (const OuterWall& wall : walls.outer) add_outline(wall.points, set);
+    for (const OuterWall& wall : walls.outer) add_outline(wall.points, walls.obstacles.feet, set);
     add_images(walls, set);
     return set;
 }
@@ -273,7 +288,7 @@ void grow_from(const Walls& walls, std::span<const DividedWake> wakes, const Lay
     std::vector<std::size_t> shown;
     rays.set = rays_of(walls, wakes, options, rays.growth, shown);
     rays.domain_ends = domain_ends(rays.set, shown, walls.outer);
-    measure_room(rays, walls.obstacles.bare);
+    measure_room(rays, walls.obstacles);
     Box box = bounding_box(walls.geometry);
     for (const OuterWall& wall : walls.outer)
         for (const Point p : wall.points) box.include(p);

@@ -56,6 +56,7 @@ struct Ray {
     std::size_t first_point;          ///< Layer::points[first_point + n] lies at the top of layer n + 1
     double height_limit;              ///< no point lies beyond this height; infinite where nothing is in the way
     RayPlace place = RayPlace::wall;  ///< where it stands
+    bool along_line = false;          ///< whether it runs along a line inside the domain, of which it is a part
     /// The wall's vertices between this ray and the next one: a sharp concave corner and those so near to it that no first
     /// layer fits between its sides. They have no rays. Empty elsewhere.
     std::vector<VertexId> corner_after{};

@@ -78,15 +78,25 @@ std::vector<double> bounded_heights(const Rays& rays) {
 
 LayeredRays layered_rays(const Rays& rays) { return {rays.set, rays.heights, rays.counts}; }
 
-void measure_room(Rays& rays, std::span<const Point> bare) {
+void measure_room(Rays& rays, const Obstacles& obstacles) {
     set_slants(rays.set);
     rays.asked = asked_heights(rays.set, rays.growth);
     rays.limits = height_limits(rays.set, rays.asked);
-    std::vector<Point> sorted(bare.begin(), bare.end());
-    std::sort(sorted.begin(), sorted.end(), lexicographically_less);
+    std::vector<Point> bare = obstacles.bare, along_lines;
+    for (const LineFoot& foot : obstacles.feet) bare.push_back(foot.at);
+    for (std::size_t i = 0; i < rays.limits.size(); ++i) {
+        const RayLine& ray = rays.set.lines[i];
+        if (!(ray.line_room > 0)) continue;
+        along_lines.push_back(ray.origin);
+        rays.limits[i] = std::min(rays.limits[i], ray.line_room);
+    }
+    std::sort(bare.begin(), bare.end(), lexicographically_less);
+    std::sort(along_lines.begin(), along_lines.end(), lexicographically_less);
+    const auto is_in = [](const std::vector<Point>& points, Point p) {
+        return std::binary_search(points.begin(), points.end(), p, lexicographically_less);
+    };
     for (std::size_t i = 0; i < rays.limits.size(); ++i)
-        if (std::binary_search(sorted.begin(), sorted.end(), rays.set.lines[i].origin, lexicographically_less))
-            rays.limits[i] = 0;
+        if (const Point at = rays.set.lines[i].origin; is_in(bare, at) && !is_in(along_lines, at)) rays.limits[i] = 0;
     rays.lower_to_copies(rays.limits);
     rays.front = bounded_heights(rays);
 }

@@ -39,6 +39,7 @@ struct RayLine {
     /// to it that no first layer fits between its sides. They have no rays. Empty elsewhere (docs/layer.md).
     std::vector<Point> corner_after{};
     bool on_symmetry = false;  ///< whether it lies in the line of symmetry, and so do all its points, exactly
+    double line_room = 0;      ///< LineFoot::room where it runs along an inner line; else 0
 };
 
 /// A stretch makes a column of layers end at a given height, with a given last spacing. Layers up to `above` keep their
@@ -165,10 +166,21 @@ struct OuterWall {
     double first_height = 0;    ///< of its layers, in units of the input; 0: it has none
 };
 
+/// Where a line inside the domain ends at a vertex of a wall. The ray there runs along the line, whose edges become edges of
+/// cells of the layer.
+struct LineFoot {
+    Point at;         ///< the vertex
+    Point direction;  ///< of the line, away from the wall; a unit vector
+    double room = 0;  ///< height along the line up to which the layer may go
+};
+
 /// Lines and outlines inside the domain that rays must not reach. They have no layers themselves.
 struct Obstacles {
     std::vector<std::vector<Point>> outlines;  ///< simple and counter-clockwise, or the two ends of a line
-    std::vector<Point> bare;                   ///< vertices of walls at which rays have no layers
+    /// One at most for each vertex. At corners with fans, and where the line leans too far, the ray does not run along the
+    /// line, and has no layers.
+    std::vector<LineFoot> feet{};
+    std::vector<Point> bare{};  ///< other vertices of walls at which rays have no layers
 };
 
 /// Grows rays from the walls: one along the normal of each vertex, fans at sharp corners and refining rays between

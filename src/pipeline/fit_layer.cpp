@@ -93,12 +93,20 @@ FittedLayer grow_within(const DomainRequest& domain, const LayerRequest& layer, 
     std::vector<layers::OuterWall> divided;
     if (!outer_walls.empty())
         divided = divide_outer_walls(outer_walls, far_field, sizes.field(geometry, conditions, far_field.box()), lines);
-    layers::Obstacles obstacles;
-    if (!lines.pieces.empty())
-        obstacles =
-            obstacles_of(lines, growth.first_height, geometry::is_cut(geometry) ? geometry.symmetry : std::nullopt,
-                         geometry::shifts_in_row(geometry));
-    layers::Rays rays = layers::grow_rays(geometry, layer.options, growth, divided, obstacles);
+    const auto grow_past_lines = [&](std::span<const double> at_feet) {
+        return layers::grow_rays(geometry, layer.options, growth, divided,
+                                 obstacles_of(lines, growth.first_height, at_feet,
+                                              geometry::is_cut(geometry) ? geometry.symmetry : std::nullopt,
+                                              geometry::shifts_in_row(geometry)));
+    };
+    // Above the layer at their feet, which is known once rays have grown, lines are in the way. Edges of rays may be no edges of
+    // Delaunay layers.
+    std::vector<double> at_feet(lines.points.size());
+    if (layer.options.enabled && layer.options.topology != LayerTopology::delaunay) {
+        at_feet = room_at_feet(lines);
+        if (!lines.pieces.empty()) at_feet = heights_at_feet(lines, grow_past_lines(at_feet));
+    }
+    layers::Rays rays = grow_past_lines(at_feet);
     if (layer.options.enabled && !geometry.pitch)
         require_room_for_layers(geometry, layers::fronts(rays), far_field, layer.options, growth);
     std::vector<double> front = rays.front;

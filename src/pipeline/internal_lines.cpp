@@ -469,38 +469,73 @@ std::vector<SizeSource> sizes_along(std::span<const InternalLine> lines) {
 
 namespace {
 
-/// Adds a line and its image in a line of symmetry as obstacles, short of their ends by `gap`. Rays in the line of symmetry
-/// must not pass between both where the line ends there:
+/// Adds a line and its image in a line of symmetry as obstacles. It stops short of its ends, by a gap on a border. Rays in the
+/// line of symmetry must not pass between both where the line ends there:
 ///
 ///        /       the line goes on beyond y by a gap,
 ///     --/------  y
 ///      \'        and its image ends two gaps below
 ///
-void add_with_image(const LineGraph& graph, const Segment& piece, Point gap, double y, layers::Obstacles& obstacles) {
-    const Point a = graph.points[piece.a.index()], b = graph.points[piece.b.index()];
-    const auto ends_on_line = [&](VertexId v) { return graph.on_border[v.index()] && graph.points[v.index()].y == y; };
-    const auto gaps = [&](VertexId v, double on_line) { return ends_on_line(v) ? on_line : 1.0; };
+void add_with_image(std::array<Point, 2> ends, std::array<Point, 2> gaps, double y, layers::Obstacles& obstacles) {
     const auto image = [&](Point p) { return geometry::image_of(p, y); };
-    obstacles.outlines.push_back({a + gaps(piece.a, -1) * gap, b - gaps(piece.b, -1) * gap});
-    obstacles.outlines.push_back({image(b - gaps(piece.b, 2) * gap), image(a + gaps(piece.a, 2) * gap)});
+    obstacles.outlines.push_back({ends[0] - gaps[0], ends[1] - gaps[1]});
+    obstacles.outlines.push_back({image(ends[1] + 2 * gaps[1]), image(ends[0] + 2 * gaps[0])});
 }
 
 }  // namespace
 
-layers::Obstacles obstacles_of(const LineGraph& graph, double first_height, std::optional<double> symmetry,
-                               std::span<const double> shifts) {
-    constexpr double gap_share = 0.1;
+std::vector<double> room_at_feet(const LineGraph& graph) {
+    constexpr double share = 0.45;  // both ends of a piece may be feet
+    std::vector<double> room(graph.points.size());
+    std::vector<int> pieces(graph.points.size());
+    for (const Segment& piece : graph.pieces)
+        for (const VertexId v : {piece.a, piece.b}) {
+            if (graph.on_wall[v.index()] || graph.on_border[v.index()])
+                room[v.index()] = share * distance(graph.points[piece.a.index()], graph.points[piece.b.index()]);
+            if (++pieces[v.index()] > 1) room[v.index()] = 0;
+        }
+    return room;
+}
+
+std::vector<double> heights_at_feet(const LineGraph& graph, const layers::Rays& rays) {
+    std::map<Point, double, core::LexicographicOrder> height_at;
+    if (rays.enabled)
+        for (std::size_t i = 0; i < rays.set.lines.size(); ++i)
+            if (rays.set.lines[i].line_room > 0) height_at.emplace(rays.set.lines[i].origin, rays.front[i]);
+    std::vector<double> heights;
+    for (const Point p : graph.points) {
+        const auto found = height_at.find(p);
+        heights.push_back(found == height_at.end() ? 0 : found->second);
+    }
+    return heights;
+}
+
+layers::Obstacles obstacles_of(const LineGraph& graph, double first_height, std::span<const double> at_feet,
+                               std::optional<double> symmetry, std::span<const double> shifts) {
+    constexpr double gap_share = 0.1, above_layer = 1.1;
     layers::Obstacles obstacles;
     for (std::size_t v = 0; v < graph.points.size(); ++v)
-        if (graph.on_wall[v] || graph.on_border[v]) obstacles.bare.push_back(graph.points[v]);
+        if ((graph.on_wall[v] || graph.on_border[v]) && !(at_feet[v] > 0)) obstacles.bare.push_back(graph.points[v]);
     for (const Segment& piece : graph.pieces) {
         const Point a = graph.points[piece.a.index()], b = graph.points[piece.b.index()];
         const double gap = std::min(gap_share * first_height, 0.25 * distance(a, b));
-        const Point along = (gap / distance(a, b)) * (b - a);
+        const Point along = unit(b - a);
+        std::array<Point, 2> ends{a, b}, on_line{};
+        for (const int end : {0, 1}) {
+            const VertexId v = end == 0 ? piece.a : piece.b;
+            const Point away = (end == 0 ? 1.0 : -1.0) * along;
+            const double height = at_feet[v.index()];
+            const bool is_on_line = symmetry && graph.on_border[v.index()] && graph.points[v.index()].y == *symmetry;
+            if (height > 0) obstacles.feet.push_back({graph.points[v.index()], away, height});
+            if (is_on_line && !(height > 0))
+                on_line[end] = gap * away;
+            else
+                ends[end] = ends[end] + (height > 0 ? above_layer * height : gap) * away;
+        }
         if (symmetry)
-            add_with_image(graph, piece, along, *symmetry, obstacles);
+            add_with_image(ends, on_line, *symmetry, obstacles);
         else
-            obstacles.outlines.push_back({a + along, b - along});
+            obstacles.outlines.push_back({ends[0], ends[1]});
     }
     add_copies(shifts, obstacles.outlines);
     return obstacles;
@@ -535,7 +570,23 @@ bool meets_border(const PlacedSegment& line, const PlacedSegment& edge) {
 
 }  // namespace
 
-decoupling::InnerLines inner_lines(const LineGraph& graph, const RegionBorders& region) {
+std::vector<std::vector<VertexId>> feet_in_layer(const LineGraph& graph, const layers::Layer& layer) {
+    std::vector<std::vector<VertexId>> feet(graph.points.size());
+    std::map<Point, std::size_t, core::LexicographicOrder> vertex_at;
+    for (std::size_t v = 0; v < graph.points.size(); ++v)
+        if (graph.on_wall[v] || graph.on_border[v]) vertex_at.emplace(graph.points[v], v);
+    if (vertex_at.empty()) return feet;
+    for (const std::vector<layers::Ray>& rays : layer.rays)
+        for (const layers::Ray& ray : rays) {
+            const auto found = vertex_at.find(layer.points[ray.origin.index()]);
+            if (!ray.along_line || found == vertex_at.end()) continue;
+            for (std::uint32_t n = 0; n <= ray.layers; ++n) feet[found->second].push_back(ray.vertex(n));
+        }
+    return feet;
+}
+
+decoupling::InnerLines inner_lines(const LineGraph& graph, std::span<const std::vector<VertexId>> feet,
+                                   const RegionBorders& region) {
     decoupling::InnerLines inner;
     if (graph.pieces.empty()) return inner;
     std::map<Point, VertexId, core::LexicographicOrder> border_vertex;
@@ -549,18 +600,20 @@ decoupling::InnerLines inner_lines(const LineGraph& graph, const RegionBorders& 
             boxes.push_back(core::bounding_box(region.points[a.index()], region.points[b.index()]));
         }
     std::vector<VertexId> id;
-    for (const Point p : graph.points) {
-        if (const auto found = border_vertex.find(p); found != border_vertex.end()) {
+    std::vector<Point> place = graph.points;
+    for (std::size_t v = 0; v < place.size(); ++v) {
+        if (feet[v].size() > 1) place[v] = region.points[feet[v].back().index()];
+        if (const auto found = border_vertex.find(place[v]); found != border_vertex.end()) {
             id.push_back(found->second);
         } else {
             id.push_back(VertexId{region.points.size() + inner.points.size()});
-            inner.points.push_back(p);
+            inner.points.push_back(place[v]);
         }
     }
     const core::BoxTree tree(std::move(boxes));
     for (std::size_t i = 0; i < graph.pieces.size(); ++i) {
         const Segment line{id[graph.pieces[i].a.index()], id[graph.pieces[i].b.index()]};
-        const Point a = graph.points[graph.pieces[i].a.index()], b = graph.points[graph.pieces[i].b.index()];
+        const Point a = place[graph.pieces[i].a.index()], b = place[graph.pieces[i].b.index()];
         tree.overlaps(core::bounding_box(a, b), [&](std::size_t e) {
             const Point c = region.points[edges[e].a.index()], d = region.points[edges[e].b.index()];
             if (meets_border({line, a, b}, {edges[e], c, d}))
@@ -575,16 +628,21 @@ decoupling::InnerLines inner_lines(const LineGraph& graph, const RegionBorders& 
     return inner;
 }
 
-void add_line_markers(const LineGraph& graph, std::span<const std::vector<Segment>> inner_edges,
-                      std::vector<Marker>& markers) {
+void add_line_markers(const LineGraph& graph, std::span<const std::vector<VertexId>> feet,
+                      std::span<const std::vector<Segment>> inner_edges, std::vector<Marker>& markers) {
     const std::vector<InternalLine>& lines = graph.given;
     for (std::uint32_t k = 0; k < lines.size(); ++k) {
         if (std::any_of(markers.begin(), markers.end(), [&](const Marker& m) { return m.name == lines[k].name; }))
             refuse(lines[k], "another marker has this name already");
         Marker marker{lines[k].name, MarkerKind::internal, {}};
-        for (std::size_t i = 0; i < graph.pieces.size(); ++i)
-            if (graph.line[i] == k)
-                marker.edges.insert(marker.edges.end(), inner_edges[i].begin(), inner_edges[i].end());
+        for (std::size_t i = 0; i < graph.pieces.size(); ++i) {
+            if (graph.line[i] != k) continue;
+            const std::vector<VertexId>&first = feet[graph.pieces[i].a.index()],
+                  &last = feet[graph.pieces[i].b.index()];
+            for (std::size_t n = 1; n < first.size(); ++n) marker.edges.push_back({first[n - 1], first[n]});
+            marker.edges.insert(marker.edges.end(), inner_edges[i].begin(), inner_edges[i].end());
+            for (std::size_t n = last.size(); n-- > 1;) marker.edges.push_back({last[n], last[n - 1]});
+        }
         if (!marker.edges.empty()) markers.push_back(std::move(marker));
     }
 }

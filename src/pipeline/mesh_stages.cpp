@@ -166,8 +166,9 @@ OutlinedMesh outline_mesh(const FittedLayer& fitted, const LayerOptions& layer_o
     SizeField size = sizes_beyond(fitted, layer);
     RegionBorders region = fitted.far_field.pitch > 0 ? close_row(layer, fitted.below, fitted.far_field, size)
                                                       : close_domain(layer, fitted.far_field, size, fitted.lines);
-    decoupling::InnerLines lines = inner_lines(fitted.lines, region);
-    return {std::move(layer), std::move(size), std::move(region), std::move(lines)};
+    std::vector<std::vector<VertexId>> feet = feet_in_layer(fitted.lines, layer);
+    decoupling::InnerLines lines = inner_lines(fitted.lines, feet, region);
+    return {std::move(layer), std::move(size), std::move(region), std::move(feet), std::move(lines)};
 }
 
 decoupling::OuterRegion OutlinedMesh::outer(const FittedLayer& fitted, const DecouplingOptions& options) const {
@@ -186,7 +187,7 @@ std::vector<Marker> markers_of_mesh(const FittedLayer& fitted, const OutlinedMes
         driver.place_far_field();
         split_far_field(borders.points, markers, fitted.conditions.alpha_deg);
     }
-    add_line_markers(fitted.lines, borders.inner_edges, markers);
+    add_line_markers(fitted.lines, outlined.feet, borders.inner_edges, markers);
     return markers;
 }
 
@@ -217,9 +218,13 @@ void complete_walls_without_thickness(std::span<const InternalLine> lines, doubl
     result.mesh.constraints = made.constraints;
     close_sheets(result);
     WallSummary walls = std::move(result.check.walls);
+    const std::size_t without_first_layer = result.check.edges_without_first_layer;
     result.check = check_mesh(result.mesh, {.min_angle_deg = min_angle_deg,
                                             .first_heights = first_heights_of_markers(result, result.mesh.markers)});
-    if (!lines.empty()) result.check.walls = std::move(walls);
+    if (!lines.empty()) {
+        result.check.walls = std::move(walls);
+        result.check.edges_without_first_layer = without_first_layer;
+    }
     require_valid(result.check);
 }
 

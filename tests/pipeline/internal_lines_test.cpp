@@ -63,6 +63,68 @@ TEST(InternalLines, EndOnWallsAndLayersGiveWay) {
     EXPECT_GT(result.check.layer.cells, 10000u);
 }
 
+/// Returns the edges of all cells, with their smaller vertices first, sorted.
+std::vector<Segment> sorted_edges(const Mesh& mesh) {
+    std::vector<Segment> edges;
+    const auto add = [&](const auto& cell) {
+        const std::size_t n = std::size(cell.v);
+        for (std::size_t i = 0; i < n; ++i) {
+            const auto [a, b] = std::minmax(cell.v[i], cell.v[(i + 1) % n]);
+            edges.push_back({a, b});
+        }
+    };
+    for (const Triangle& t : mesh.triangles) add(t);
+    for (const Quad& q : mesh.quads) add(q);
+    std::sort(edges.begin(), edges.end());
+    return edges;
+}
+
+TEST(InternalLines, RunThroughLayersWhichKeepTheirFirstHeights) {
+    struct Case {
+        std::vector<Point> line;
+        double least_coverage;
+        bool on_ground = false;
+    };
+    const std::vector<Case> cases{
+        {{{0.3, 0}, {0.3, 0.3}}, 0.99},                        // upright
+        {{{0.3, -0.3}, {0.3, 0.3}}, 0.99},                     // through the section
+        {{{0.3, 0}, {0.8, 0.3}}, 0.99},                        // leans by 60 degrees
+        {{{-0.2, 0}, {0.2, 0}}, 0.99},                         // at the nose
+        {{{1, 0}, {1.3, 0.1}}, 0.99},                          // in the fan of the trailing edge
+        {{{0.1, 0}, {0.1, 0.07}}, 0.98},                       // hardly longer than the layer is thick
+        {{{0.6, 0}, {0.5, -0.2}}, 0.98, true},                 // to the ground
+        {{{0.9, 0}, {0.95, 0.3}, {0.1, 0.3}, {0.2, 0}}, 0.98}  // there and back
+    };
+    for (const Case& c : cases)
+        for (const bool two_sided : {false, true})
+            for (const LayerTopology topology : {LayerTopology::layered, LayerTopology::quads}) {
+                SCOPED_TRACE(testing::Message() << "case " << &c - cases.data() << ", two-sided " << two_sided
+                                                << ", topology " << static_cast<int>(topology));
+                if (two_sided && (c.on_ground || c.line.size() > 2)) continue;  // it would part the flow
+                CaseOptions options = options_with({{.name = "probe", .points = c.line, .two_sided = two_sided}});
+                options.layer.topology = topology;
+                options.layer.layers.reset();
+                if (c.on_ground) {
+                    options.far_field.ground = Length{0.2 - 0.0600173};
+                    options.far_field.ground_wall = OuterWallKind::moving;
+                    options.lines[0].points[1].y = -10;
+                }
+                const MeshResult result = generate_mesh({"naca:0012"}, options);
+                EXPECT_TRUE(check_mesh(result.mesh).valid());
+                EXPECT_EQ(result.check.edges_without_first_layer, 0u);
+                for (const auto& wall : result.check.walls.first_heights) EXPECT_EQ(wall.share_of_kept, 1);
+                EXPECT_EQ(result.check.isotropic.angles_below_bound, result.check.isotropic.exempt);
+                const auto& cells = result.layer_coverage[0].all;
+                EXPECT_GE(static_cast<double>(cells.made_cells) / static_cast<double>(cells.requested_cells),
+                          c.least_coverage);
+                const std::vector<Segment> edges = sorted_edges(result.mesh);
+                for (const Segment& edge : marker_of(result.mesh, "probe")->edges) {
+                    const auto [a, b] = std::minmax(edge.a, edge.b);
+                    EXPECT_TRUE(std::binary_search(edges.begin(), edges.end(), Segment{a, b}));
+                }
+            }
+}
+
 TEST(InternalLines, EndOnWallsOfTheDomain) {
     for (const OuterWallKind walls : {OuterWallKind::slip, OuterWallKind::no_slip})
         for (const bool two_sided : {false, true}) {

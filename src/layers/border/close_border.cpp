@@ -285,6 +285,7 @@ private:
                                           .first_point = first_point_[i],
                                           .height_limit = height_limit(i),
                                           .place = set_.lines[i].place,
+                                          .along_line = set_.lines[i].line_room > 0,
                                           .corner_after = corner_after_ray_[i]});
             }
         }

@@ -169,10 +169,21 @@ ChainLeans minimise_leans(std::span<const ColumnLack> lacks, std::span<const Lea
 
 namespace {
 
-/// Returns the bounds of the lean of the one ray of a vertex. shorter_edge: length of the shorter one of its edges.
-LeanBounds bounds_of_ray(const WallVertex& vertex, double first_height, double shorter_edge) {
-    const double from_normals = core::radians(most_lean_from_normals_deg) - 0.5 * std::abs(vertex.turning);
-    const double most = std::min({core::radians(most_lean_deg), from_normals,
+/// Returns the largest lean that lines ask of rays beside them, which otherwise meet those along the lines: that of a line, but no
+/// more than slants allow.
+double lean_beside_lines(std::span<const WallVertex> vertices) {
+    double most = 0;
+    for (const WallVertex& vertex : vertices) most = std::max(most, std::abs(vertex.lean_of_line.value_or(0)));
+    return std::min(most, core::atan2_reproducible(std::sqrt(max_slant * max_slant - 1), 1));
+}
+
+/// Returns the bounds of the lean of the one ray of a vertex. shorter_edge: length of the shorter one of its edges;
+/// beside_lines: lean_beside_lines().
+LeanBounds bounds_of_ray(const WallVertex& vertex, double first_height, double shorter_edge, double beside_lines) {
+    if (vertex.lean_of_line) return {*vertex.lean_of_line, *vertex.lean_of_line};
+    const double from_normals =
+        std::max(core::radians(most_lean_from_normals_deg), beside_lines) - 0.5 * std::abs(vertex.turning);
+    const double most = std::min({std::max(core::radians(most_lean_deg), beside_lines), from_normals,
                                   max_lean_between_edges(vertex.turning, first_height, shorter_edge)});
     return {-std::max(most, 0.0), std::max(most, 0.0)};
 }
@@ -191,6 +202,7 @@ Leaners leaners_of(std::span<const RayVertex> outline, std::span<const double> h
     const std::size_t n = outline.size();
     constexpr ColumnLack nothing{-HUGE_VAL, -HUGE_VAL};
     Leaners result;
+    const double beside_lines = lean_beside_lines(vertices);
     double edge_before = distance(outline[n - 1].at, outline[0].at);
     for (std::size_t i = 0; i < n; ++i) {
         const std::size_t next = i + 1 < n ? i + 1 : 0;
@@ -204,7 +216,7 @@ Leaners leaners_of(std::span<const RayVertex> outline, std::span<const double> h
             result.bounds.insert(result.bounds.end(), {{-most, given}, {-given, most}});
             result.leans.push_back(&vertex.lean[0]);
         } else {
-            result.bounds.push_back(bounds_of_ray(vertex, first_height, std::min(edge_before, edge)));
+            result.bounds.push_back(bounds_of_ray(vertex, first_height, std::min(edge_before, edge), beside_lines));
         }
         result.leans.push_back(&vertex.lean[vertex.fan]);
         const double opening = (vertex.fan ? 0 : 0.5 * vertex.turning) + (after.fan ? 0 : 0.5 * after.turning);

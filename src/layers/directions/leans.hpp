@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -63,6 +64,8 @@ struct WallVertex {
     Point bisector;       ///< outward unit vector
     bool fan;             ///< whether it has several rays, from normal_before to normal_after; else one, the bisector
     double lean[2]{};     ///< angles by which the first and the last ray lean, in radians, counter-clockwise
+    /// The lean of a ray along a line that ends there, and nothing elsewhere.
+    std::optional<double> lean_of_line{};
 };
 
 /// Returns the angle to which columns of an outline may open without more rays, in radians: LayerOptions::max_ray_angle_deg, or,

@@ -8,6 +8,7 @@
 #include "core/angles.hpp"
 #include "layers/directions/leans.hpp"
 #include "layers/mechanisms.hpp"
+#include "layers/parameters.hpp"
 #include "layers/stages.hpp"
 
 namespace lamina::layers {
@@ -29,6 +30,14 @@ Point bisector(Point tangent_before, Point tangent_after, double turning) {
     return turning > 0 ? unit(tangent_before - tangent_after) : unit(tangent_after - tangent_before);
 }
 
+/// Returns the lean of a ray along a line in this direction; nothing where it is too far from the normals of the edges.
+std::optional<double> lean_of_line(const WallVertex& vertex, Point direction) {
+    const double most = core::radians(most_lean_of_line_deg);
+    for (const Point normal : {vertex.normal_before, vertex.normal_after})
+        if (std::abs(core::angle_between(normal, direction)) > most) return {};
+    return core::angle_between(vertex.bisector, direction);
+}
+
 /// Returns the vertices of the outline with their normals, not smoothed yet.
 std::vector<WallVertex> wall_vertices(std::span<const RayVertex> outline, const LayerOptions& options,
                                       double min_fan_turning_deg) {
@@ -41,6 +50,7 @@ std::vector<WallVertex> wall_vertices(std::span<const RayVertex> outline, const 
         const double turning = end ? core::pi : core::angle_between(before, after);
         const bool fan = wall && options.corners == CornerRays::fan && turning > core::radians(min_fan_turning_deg);
         vertices[i] = {turning, -perpendicular(before), -perpendicular(after), bisector(before, after, turning), fan};
+        if (outline[i].foot && !fan) vertices[i].lean_of_line = lean_of_line(vertices[i], outline[i].foot->direction);
         before = after;
     }
     return vertices;
@@ -48,11 +58,24 @@ std::vector<WallVertex> wall_vertices(std::span<const RayVertex> outline, const 
 
 Point leaning(Point direction, double lean) { return lean == 0 ? direction : unit(core::rotated(direction, lean)); }
 
-Point first_direction(const WallVertex& v) { return leaning(v.fan ? v.normal_before : v.bisector, v.lean[0]); }
+Point first_direction(const WallVertex& v) {
+    return leaning(v.fan ? v.normal_before : v.bisector, v.lean_of_line.value_or(v.lean[0]));
+}
 Point last_direction(const WallVertex& v) { return leaning(v.fan ? v.normal_after : v.bisector, v.lean[1]); }
 
 /// Returns half of the angle between the first and the last ray of a fan, in radians.
 double half_fan(const WallVertex& v) { return 0.5 * (v.turning + v.lean[1] - v.lean[0]); }
+
+/// Turns the ray between the first and the last one of a fan that is nearest to a line into it, if the line is in the fan.
+void turn_to_line(const LineFoot& foot, double max_angle, std::span<RayLine> fan) {
+    if (fan.size() < 3) return;
+    const auto away = [&](const RayLine& ray) { return std::abs(core::angle_between(ray.direction, foot.direction)); };
+    const auto nearest = std::min_element(fan.begin() + 1, fan.end() - 1,
+                                          [&](const RayLine& a, const RayLine& b) { return away(a) < away(b); });
+    if (away(*nearest) >= max_angle || away(fan.front()) == 0 || away(fan.back()) == 0) return;
+    nearest->direction = foot.direction;
+    nearest->line_room = foot.room;
+}
 
 /// Adds the ray or the fan of a vertex, which has `fan_parts` parts, or as many as max_angle asks for. The angles of a
 /// fan are counted from the bisector, not from one side to the other, so that mirrored input gives mirrored rays.
@@ -61,6 +84,11 @@ void add_vertex_rays(const RayVertex& at, const WallVertex& vertex, double max_a
     const auto add = [&](Point direction) {
         rays.push_back({at.at, direction, at.place, at.opening, at.least_height});
     };
+    if (vertex.lean_of_line) {
+        add(at.foot->direction);
+        rays.back().line_room = at.foot->room;
+        return;
+    }
     add(first_direction(vertex));
     if (!vertex.fan) return;
     const double half = half_fan(vertex), middle = 0.5 * (vertex.lean[0] + vertex.lean[1]);
@@ -70,6 +98,7 @@ void add_vertex_rays(const RayVertex& at, const WallVertex& vertex, double max_a
         add(unit(core::rotated(vertex.bisector, middle + share * half)));
     }
     add(last_direction(vertex));
+    if (at.foot) turn_to_line(*at.foot, max_angle, std::span(rays).last(parts + 1));
 }
 
 /// Adds the rays between two others that differ by more than the largest angle, evenly spaced on the edge. Corners of

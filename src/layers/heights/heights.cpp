@@ -326,7 +326,8 @@ void set_slants(RaySet& set) {
         };
         add_edge(before, ray.origin);
         add_edge(ray.origin, after);
-        if (edges * (1 - negligible) > sum) slants[i] = edges / std::max(sum, edges / max_slant);
+        if (edges * (1 - negligible) <= sum) continue;
+        slants[i] = edges / (ray.line_room > 0 ? sum : std::max(sum, edges / max_slant));
     }
     fill_fans(set, slants);
     for (std::size_t i = 0; i < slants.size(); ++i) set.lines[i].slant = slants[i];
