@@ -216,7 +216,11 @@ RaySet rays_of(const Walls& walls, std::span<const DividedWake> wakes, const Lay
         set.lines.insert(set.lines.end(), rays.begin(), rays.end());
         set.begin.push_back(set.lines.size());
     }
-    for (const OuterWall& wall : walls.outer) add_outline(wall.points, walls.obstacles.feet, set);
+    for (const OuterWall& wall : walls.outer) {
+        const std::size_t first = set.lines.size();
+        add_outline(wall.points, walls.obstacles.feet, set);
+        for (std::size_t i = first; i < set.lines.size(); ++i) set.lines[i].most_height = wall.thickest;
+    }
     add_images(walls, set);
     return set;
 }

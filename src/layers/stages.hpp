@@ -38,8 +38,9 @@ struct RayLine {
     /// The wall's vertices between this ray and the next one, in their order: a sharp concave corner and those so near
     /// to it that no first layer fits between its sides. They have no rays. Empty elsewhere (docs/layer.md).
     std::vector<Point> corner_after{};
-    bool on_symmetry = false;  ///< whether it lies in the line of symmetry, and so do all its points, exactly
-    double line_room = 0;      ///< LineFoot::room where it runs along an inner line; else 0
+    bool on_symmetry = false;       ///< whether it lies in the line of symmetry, and so do all its points, exactly
+    double line_room = 0;           ///< LineFoot::room where it runs along an inner line; else 0
+    double most_height = HUGE_VAL;  ///< OuterWall::thickest on outer walls
 };
 
 /// A stretch makes a column of layers end at a given height, with a given last spacing. Layers up to `above` keep their
@@ -162,8 +163,9 @@ struct Rays {
 struct OuterWall {
     /// The outline of the plate, counter-clockwise. It begins with the part of the wall that bounds the domain.
     std::vector<Point> points;
-    std::size_t in_domain = 0;  ///< number of points on that part
-    double first_height = 0;    ///< of its layers, in units of the input; 0: it has none
+    std::size_t in_domain = 0;   ///< number of points on that part
+    double first_height = 0;     ///< of its layers, in units of the input; 0: it has none
+    double thickest = HUGE_VAL;  ///< of its layers up to isotropy, in units of the input
 };
 
 /// Where a line inside the domain ends at a vertex of a wall. The ray there runs along the line, whose edges become edges of

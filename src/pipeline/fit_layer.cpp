@@ -63,13 +63,14 @@ std::vector<layers::Circle> circles_round_unexcused(std::span<const mesh::Narrow
 }
 
 /// The sizes by which walls of the domain are divided: those of the bodies' walls and of the sources, which grow as the
-/// spacing of walls may.
+/// spacing of walls may, up to a largest one.
 struct OuterWallSizes {
     const SizingOptions& options;
     double gradation;
     std::vector<SizeSource> finer{};  ///< where they become finer than bodies ask for
 
-    SizeField field(const Geometry& geometry, const ReferenceConditions& conditions, const Box& domain) const {
+    SizeField field(const Geometry& geometry, const ReferenceConditions& conditions, const Box& domain,
+                    double largest) const {
         const sizing::SizedBodies bodies = sized_bodies(geometry, conditions);
         std::vector<SizeSource> sources =
             sizing::gather_size_requests(options, bodies, bodies.walls, domain).at_borders;
@@ -77,9 +78,22 @@ struct OuterWallSizes {
         SizingOptions sizing = options;
         sizing.background.reset();
         sizing.gradation = gradation;
+        if (std::isfinite(largest) && (!sizing.far_size || in_units(*sizing.far_size, conditions.chord) > largest))
+            sizing.far_size = Length{largest, LengthUnit::input};
         return sizing::make_size_field(bodies.walls, sources, sizing, conditions.chord, domain);
     }
 };
+
+/// Returns how long edges of outer walls may be, so that the last cells of layers that end at their largest thickness are not
+/// far wider than high.
+double largest_outer_edge(std::span<const OuterWallFacts> walls, const LayerRequest& layer) {
+    constexpr double edge_over_thickness = 0.75;
+    double largest = HUGE_VAL;
+    for (const OuterWallFacts& wall : walls)
+        if (wall.first_height > 0 && !layer.options.layers)
+            largest = std::min(largest, edge_over_thickness * wall.thickest / layer.growth.fineness);
+    return largest;
+}
 
 /// Makes rays on walls, within their far field.
 FittedLayer grow_within(const DomainRequest& domain, const LayerRequest& layer, const OuterWallSizes& sizes,
@@ -92,7 +106,9 @@ FittedLayer grow_within(const DomainRequest& domain, const LayerRequest& layer, 
     LineGraph lines = arrange_lines(domain.lines, far_field, geometry);
     std::vector<layers::OuterWall> divided;
     if (!outer_walls.empty())
-        divided = divide_outer_walls(outer_walls, far_field, sizes.field(geometry, conditions, far_field.box()), lines);
+        divided = divide_outer_walls(
+            outer_walls, far_field,
+            sizes.field(geometry, conditions, far_field.box(), largest_outer_edge(outer_walls, layer)), lines);
     const auto grow_past_lines = [&](std::span<const double> at_feet) {
         return layers::grow_rays(geometry, layer.options, growth, divided,
                                  obstacles_of(lines, growth.first_height, at_feet,

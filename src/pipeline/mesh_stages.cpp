@@ -147,7 +147,8 @@ void add_borders_of_domain(const FittedLayer& fitted, const layers::Layer& layer
     const std::vector<Segment>& symmetry = region.symmetry;
     add_outer_walls(fitted.outer_walls, std::span(layer.edges.walls).last(layer.outer_walls), markers);
     if (!symmetry.empty()) {
-        const OuterWallFacts line{symmetry_name(options), fitted.far_field.floor, OuterWallKind::slip, 0, "symmetry"};
+        const OuterWallFacts line{
+            symmetry_name(options), fitted.far_field.floor, OuterWallKind::slip, 0, 0, "symmetry"};
         add_outer_walls({&line, 1}, {&symmetry, 1}, markers);
     }
 }

@@ -7,6 +7,7 @@
 
 #include <lamina/error.hpp>
 
+#include "core/reproducible_math.hpp"
 #include "decoupling/separators.hpp"
 #include "geometry/symmetry.hpp"
 #include "layers/growth.hpp"
@@ -25,6 +26,14 @@ double first_height_of(const std::optional<OuterLayers>& layers, const char* opt
     return layers::first_height_for(std::get<YPlus>(*layers).y_plus, *conditions.reynolds, conditions.chord);
 }
 
+/// Returns how thick layers on walls of the domain may be: so many times as thick as the turbulent boundary layer of a flat plate
+/// as long as the domain at its end, 0.37 x Re_x^(-1/5) (H. Schlichting, Boundary-Layer Theory, 21.1). None is thicker there.
+double thickest_layer_of_domain(double length, const ReferenceConditions& conditions) {
+    constexpr double reynolds_if_unknown = 1e6, boundary_layers = 2;
+    const double reynolds = conditions.reynolds.value_or(reynolds_if_unknown) * length / conditions.chord;
+    return boundary_layers * 0.37 * length / core::pow_reproducible(reynolds, 0.2);
+}
+
 /// Returns the plate that a wall is for the rays. Its hidden part goes on beyond both sides of the domain, far enough
 /// for columns of layers at the sides not to feel its corners, and back below:
 ///
@@ -37,7 +46,7 @@ layers::OuterWall plate(const OuterWallFacts& wall, std::vector<double> x, bool 
     const std::size_t n = x.size();
     const double first_step = x[1] - x[0], last_step = x[n - 1] - x[n - 2];
     const double depth = (is_below ? -1 : 1) * std::min(std::abs(first_step), std::abs(last_step));
-    layers::OuterWall outer{{}, n, wall.first_height};
+    layers::OuterWall outer{{}, n, wall.first_height, wall.thickest};
     std::vector<double> hidden;  // from the end of the wall beyond both sides to its beginning
     for (std::size_t i = 1; i <= columns_beyond; ++i) hidden.push_back(x[n - 1] + static_cast<double>(i) * last_step);
     for (const double at : x) outer.points.push_back({at, wall.y});
@@ -57,11 +66,12 @@ std::vector<OuterWallFacts> outer_wall_facts(const decoupling::FarField& far_fie
                                              const Geometry& geometry, const LayerOptions& layer,
                                              const ReferenceConditions& conditions, const layers::LayerGrowth& growth) {
     std::vector<OuterWallFacts> walls;
+    const double thickest = thickest_layer_of_domain(far_field.box().width(), conditions);
     const auto add = [&](const char* name, double y, const char* option, OuterWallKind kind,
                          const std::optional<OuterLayers>& layers, const char* of_layers) {
         const bool has_layers = layer.enabled && kind != OuterWallKind::slip;
         walls.push_back(
-            {name, y, kind, has_layers ? first_height_of(layers, of_layers, conditions, growth) : 0, option});
+            {name, y, kind, has_layers ? first_height_of(layers, of_layers, conditions, growth) : 0, thickest, option});
         if (has_layers) layers::layer_growth(layer, conditions, {walls.back().first_height});  // throws
     };
     if (options.ground)

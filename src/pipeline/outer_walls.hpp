@@ -21,6 +21,7 @@ struct OuterWallFacts {
     double y = 0;             ///< where it lies
     OuterWallKind kind{};     ///< how the flow meets it
     double first_height = 0;  ///< of its layers, in units of the input; 0: it has none
+    double thickest = 0;  ///< of its layers up to isotropy: twice the boundary layer of a plate as long as the domain
     const char* option = "";  ///< that asks for it
 };
 

@@ -132,6 +132,28 @@ TEST(OuterWalls, LayersHaveAFirstHeightOfTheirOwn) {
         EXPECT_EQ(heights.share_of_kept, 1) << heights.marker;
 }
 
+TEST(OuterWalls, LayersFarFromTheBodyAreNoThickerThanTwoBoundaryLayers) {
+    for (const double size : {40.0, 100.0}) {
+        CaseOptions options = above_ground(0.1);
+        options.far_field.size = size;
+        options.conditions.reynolds = 1e6;
+        const MeshResult result = mesh_of({"naca:0012"}, options);
+        double lowest = 0;
+        for (const Point p : result.mesh.points) lowest = std::min(lowest, p.y);
+        double highest = 0;  // point of a cell of the layer on the ground, above it
+        for (std::size_t t = 0; t < result.mesh.triangles.size(); ++t)
+            for (const VertexId v : result.mesh.triangles[t].v)
+                if (const Point p = result.mesh.points[v.index()];
+                    result.mesh.region[t] == Region::layer && std::abs(p.x) > 5)
+                    highest = std::max(highest, p.y - lowest);
+        const double domain = 2 * size + 1;
+        EXPECT_NEAR(highest, 2 * 0.37 * domain * std::pow(1e6 * domain, -0.2), 0.02 * highest) << size;
+        EXPECT_GE(result.check.transition.p01_area_ratio, 0.4);
+        for (const FirstHeights& heights : result.check.walls.first_heights)
+            EXPECT_EQ(heights.share_of_kept, 1) << heights.marker;
+    }
+}
+
 TEST(OuterWalls, EveryTopologyHasThem) {
     for (const LayerTopology topology : {LayerTopology::delaunay, LayerTopology::quads}) {
         CaseOptions options = above_ground(0.05);

@@ -192,7 +192,7 @@ std::vector<double> asked_on_element(const RaySet& own, const LayerGrowth& growt
     asked = heights_of_isotropy(own, law.of(0), least_heights(own));
     for (std::size_t i = 0; i < asked.size(); ++i) {
         if (!growth.thickness && asked[i] >= own.lines[i].opening * law.of(i).back()) throw_too_many_layers();
-        if (growth.thickness) asked[i] = std::min(asked[i], *growth.thickness);
+        asked[i] = std::min({asked[i], growth.thickness.value_or(HUGE_VAL), own.lines[i].most_height});
         asked[i] *= own.lines[i].slant;
     }
     bound_slopes(own, asked);
