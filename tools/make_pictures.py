@@ -49,6 +49,15 @@ class Maker:
     def named_mesh(self, name):
         """Returns the file of a mesh of the table, which is made once."""
         file = self.scratch / f"{name}.vtu"
+        if name in self.table["commands"]:
+            first, *commands = self.table["commands"][name]
+            self.named_mesh(first)
+            for command in commands if not file.exists() else ():
+                words = [self.program if word == "lamina" else ROOT / word if word.startswith("tools/") else word
+                         for word in command.split()]
+                subprocess.run(words, check=True, cwd=self.scratch, stdout=subprocess.DEVNULL,
+                               stderr=subprocess.DEVNULL)
+            return file
         words = self.arguments(self.table["meshes"][name])
         if words is not None and not file.exists():
             self.mesh(words, file)
@@ -85,17 +94,29 @@ class Maker:
 
         with concurrent.futures.ThreadPoolExecutor(2) as pool:
             files = list(pool.map(drawn, places))
+        self.beside_each_other(name, files, 3, [file.stem for file in files])
+
+    def beside_each_other(self, name, files, columns, titles, colors=16):
+        """Draws pictures in rows, with their titles below them."""
         import matplotlib.pyplot as plot
-        rows = -(-len(files) // 3)
-        figure, axes = plot.subplots(rows, 3, figsize=(15.2, 4.5 * rows), dpi=100, squeeze=False)
+        rows = -(-len(files) // columns)
+        figure, axes = plot.subplots(rows, columns, figsize=(15.2, 4.5 * rows), dpi=100, squeeze=False)
         for axis in axes.flat:
             axis.axis("off")
-        for axis, file in zip(axes.flat, files):
+        for axis, file, title in zip(axes.flat, files, titles):
             axis.imshow(plot.imread(file), interpolation="lanczos")
-            axis.set_title(file.stem, y=-0.1, fontsize=13)
+            axis.set_title(title, y=-0.1, fontsize=13)
         figure.tight_layout()
         figure.savefig(self.scratch / f"{name}.png")
-        small(self.scratch / f"{name}.png", IMAGES / f"{name}.png")
+        small(self.scratch / f"{name}.png", IMAGES / f"{name}.png", colors)
+
+    def row(self, name):
+        """Draws several meshes beside each other."""
+        options, *meshes = self.table["rows"][name]
+        files = [self.plot(self.named_mesh(mesh), options.split(), self.scratch / f"{name}-{mesh}.png", 700)
+                 for mesh, _ in meshes]
+        self.beside_each_other(name, files, len(files), [title for _, title in meshes],
+                               64 if "--color" in options else 16)
 
     def zoom(self, name):
         """Draws windows of a mesh, each a part of the one before: the first above, the others below it."""
@@ -150,7 +171,7 @@ class Maker:
 
 def require_rows(table):
     """Ends the program where a picture has no row in the table."""
-    files = {f"{name}.png" for kind in ("pictures", "zooms", "sheets") for name in table[kind]}
+    files = {f"{name}.png" for kind in ("pictures", "rows", "zooms", "sheets") for name in table[kind]}
     files |= {*table["drawings"], *table["taken"]}
     unlisted = sorted(path.name for path in IMAGES.iterdir() if path.name not in files and path.suffix != ".dot")
     if unlisted:
@@ -170,7 +191,7 @@ def main():
     with tempfile.TemporaryDirectory() as scratch:
         maker = Maker(arguments.program.resolve(), table,
                       arguments.collection and arguments.collection.resolve(), pathlib.Path(scratch))
-        for kind, make in (("pictures", maker.picture), ("zooms", maker.zoom), ("sheets", maker.sheet),
+        for kind, make in (("pictures", maker.picture), ("rows", maker.row), ("zooms", maker.zoom), ("sheets", maker.sheet),
                            ("drawings", maker.drawing), ("taken", maker.taken)):
             for name in table[kind]:
                 if not arguments.only or name.partition(".")[0] in arguments.only:
