@@ -59,6 +59,13 @@ void write_straight_msh(const MeshView& mesh, const fs::path& file, const WriteO
     write_curved_msh<version_4, binary>(mesh, {}, file, options);
 }
 
+void write_curved_mfem(const MeshView& mesh, const CurvedNodes& nodes, const fs::path& file, const WriteOptions&) {
+    core::write_stream_atomically(file, [&](std::ostream& out) { write_mfem(mesh, nodes, file, out); });
+}
+void write_straight_mfem(const MeshView& mesh, const fs::path& file, const WriteOptions& options) {
+    write_curved_mfem(mesh, {}, file, options);
+}
+
 template <bool compressed>
 void write_curved_vtu_variant(const MeshView& mesh, const CurvedNodes& nodes, const fs::path& file,
                               const WriteOptions&) {
@@ -265,6 +272,16 @@ std::vector<FormatRow> ugrid_rows() {
     return rows;
 }
 
+FormatRow mfem_row() {
+    return {.name = "mfem",
+            .extensions = {".mesh"},
+            .description = "MFEM mesh 1.0, ASCII",
+            .write = write_straight_mfem,
+            .files = one_file,
+            .write_curved = write_curved_mfem,
+            .one_stream = true};
+}
+
 FormatRow triangle_row() {
     return {.name = "triangle",
             .extensions = {".node", ".ele"},
@@ -286,6 +303,7 @@ std::vector<FormatRow> make_table() {
     add(ugrid_rows());
     add(fluent_rows());
     add({triangle_row()});
+    add({mfem_row()});
     return table;
 }
 

@@ -132,6 +132,8 @@ struct MshVariant {
 /// Writes a mesh with straight cells, whose nodes are none, or with curved ones.
 void write_msh(const MeshView& mesh, const CurvedNodes& nodes, const std::filesystem::path& file, MshVariant variant,
                std::ostream& out);
+/// Writes a mesh with straight or curved cells in the format of MFEM.
+void write_mfem(const MeshView& mesh, const CurvedNodes& nodes, const std::filesystem::path& file, std::ostream& out);
 /// Writes version 2.2, ASCII, in space.
 void write_msh_extruded(const MeshView& mesh, const std::filesystem::path& file, const Extrusion& extrusion,
                         std::ostream& out);

@@ -1,8 +1,11 @@
 // Curved cells: proved valid over all kinds of layers, and as near to exact walls as their order promises.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <functional>
+#include <map>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -11,6 +14,7 @@
 #include <lamina/io.hpp>
 #include <lamina/stream.hpp>
 
+#include "mesh/curved_nodes.hpp"
 #include "pipeline/cases.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -278,6 +282,69 @@ TEST(CurvedCells, AreReadBackFromFiles) {
                 EXPECT_THROW(read_mesh(file), InputError);
             }
         }
+}
+
+TEST(CurvedCells, AreWrittenAsMfemNumbersTheirNodes) {
+    const TemporaryFolder folder;
+    for (unsigned order = 2; order <= max_cell_order; ++order) {
+        CaseOptions options = curved_options(order);
+        options.layer.layers = 5;
+        options.far_field.size = 3;
+        options.sizing.gradation = 0.4;
+        const MeshResult result = generate_mesh({"naca:0012"}, options);
+        const Mesh& mesh = result.mesh;
+        const std::filesystem::path file = folder.path() / "curved.mesh";
+        write_curved_mesh(mesh, result.curved, file);
+        std::ifstream in(file);
+        std::string word;
+        const auto skip_to = [&](const std::string& section) {
+            while (word != section && in >> word) continue;
+            ASSERT_EQ(word, section);
+        };
+        std::size_t count = 0;
+        skip_to("elements");
+        in >> count;
+        ASSERT_EQ(count, mesh.triangles.size() + mesh.quads.size());
+        std::map<std::pair<std::size_t, std::size_t>, std::size_t> edges;  // numbered as they are met
+        std::vector<std::vector<std::size_t>> cells;
+        for (std::size_t attribute = 0, type = 0; cells.size() < count;) {
+            in >> attribute >> type;
+            std::vector<std::size_t>& corners = cells.emplace_back(type + 1);
+            for (std::size_t& v : corners) in >> v;
+            for (std::size_t i = 0; i < corners.size(); ++i)
+                edges.try_emplace(std::minmax({corners[i], corners[(i + 1) % corners.size()]}), edges.size());
+        }
+        skip_to("Ordering:");
+        in >> word;
+        std::vector<Point> places(mesh.points.size() + result.curved.points.size());
+        for (Point& p : places) in >> p.x >> p.y;
+        EXPECT_TRUE(in);
+        EXPECT_FALSE(in >> word);
+        const std::size_t within = order - 1;
+        std::size_t inside = mesh.points.size() + edges.size() * within;
+        mesh::CellNodes nodes;
+        for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+            const std::vector<std::size_t>& corners = cells[cell];
+            const auto n = static_cast<unsigned>(corners.size());
+            const auto expected = mesh::gather_nodes(mesh, result.curved, cell, nodes);
+            const auto lattice = mesh::lattice_of_cell(n, order);
+            for (std::size_t i = 0; i < n; ++i) {
+                EXPECT_EQ(places[corners[i]], expected[i]);
+                const std::size_t a = corners[i], b = corners[(i + 1) % n];
+                for (std::size_t k = 0; k < within; ++k)
+                    EXPECT_EQ(places[mesh.points.size() + edges.at(std::minmax({a, b})) * within +
+                                     (a < b ? k : within - 1 - k)],
+                              expected[n + i * within + k]);
+            }
+            for (unsigned j = 1; j < order; ++j)
+                for (unsigned i = 1; i < (n == 3 ? order - j : order); ++i, ++inside) {
+                    const auto at = std::find_if(lattice.begin(), lattice.end(),
+                                                 [&](const auto& place) { return place.i == i && place.j == j; });
+                    EXPECT_EQ(places[inside], expected[static_cast<std::size_t>(at - lattice.begin())]);
+                }
+        }
+        EXPECT_EQ(inside, places.size());
+    }
 }
 
 TEST(CurvedCells, ThatAreWrongAreFound) {

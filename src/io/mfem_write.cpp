@@ -1,0 +1,150 @@
+// Writes the mesh format of MFEM, version 1.0: cells, edges of markers and vertices, and the nodes of curved cells as a grid
+// function. Source: MFEM, "Mesh Formats"; mesh/mesh_readers.cpp, mesh/mesh.cpp (GetElementToEdgeTable) and fem/fe_coll.cpp
+// of MFEM 4.
+//
+// Cells and markers have numbers for names, which a comment tells. The nodes are those of "H1@U": Lagrange's polynomials
+// whose nodes are evenly spaced. Their places stand vertex by vertex, edge by edge and cell by cell. Edges are numbered as
+// cells have them first, and the nodes of each go from its vertex of the lower number to the other one. Those within cells
+// go row by row.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/formats.hpp"
+#include "io/mesh_parts.hpp"
+#include "io/text_output.hpp"
+#include "mesh/curved_nodes.hpp"
+
+namespace lamina::io {
+
+namespace {
+
+enum MfemGeometry : std::size_t { mfem_segment = 1, mfem_triangle = 2, mfem_square = 3 };
+
+/// Returns the directed edges that their cell has before any other one does.
+std::vector<std::uint32_t> first_edges(const MeshView& mesh) {
+    const mesh::Adjacency adjacency = mesh::find_adjacency(mesh);
+    std::vector<std::uint32_t> edges;
+    edges.reserve(adjacency.edges);
+    for (std::uint32_t e = 0; e < mesh::CellEdges(mesh).size(); ++e)
+        if (adjacency.twin[e] == mesh::no_edge || e < adjacency.twin[e]) edges.push_back(e);
+    return edges;
+}
+
+/// Returns the places of the nodes within a cell, counted behind those of its border, row by row.
+std::vector<std::size_t> rows_within(unsigned corners, unsigned order) {
+    const std::span<const mesh::LatticePlace> lattice = mesh::lattice_of_cell(corners, order);
+    const std::size_t border = std::size_t{corners} * order;
+    std::vector<std::size_t> places(lattice.size() - border);
+    std::iota(places.begin(), places.end(), std::size_t{0});
+    std::sort(places.begin(), places.end(), [&](std::size_t a, std::size_t b) {
+        const mesh::LatticePlace &first = lattice[border + a], &second = lattice[border + b];
+        return std::pair(first.j, first.i) < std::pair(second.j, second.i);
+    });
+    return places;
+}
+
+class MfemWriter {
+public:
+    MfemWriter(const MeshView& mesh, const CurvedNodes& nodes, std::ostream& out)
+        : mesh_(mesh), nodes_(nodes), cells_(mesh), out_(out) {}
+
+    void write() {
+        write_names();
+        write_cells();
+        write_boundary();
+        write_vertices();
+    }
+
+private:
+    void write_names() {
+        out_ << "MFEM mesh v1.0\n\n# attributes of elements:";
+        std::vector<std::string_view> regions;
+        attributes_.resize(cells_.cells());
+        for (const CellBlock& block : cell_blocks(mesh_)) {
+            auto region = std::find(regions.begin(), regions.end(), block.region);
+            if (region == regions.end()) region = regions.insert(region, block.region);
+            const auto attribute = static_cast<std::uint8_t>(region - regions.begin() + 1);
+            for (const std::uint32_t cell : block.cells)
+                attributes_[cell + (block.corners == 4 ? mesh_.triangles.size() : 0)] = attribute;
+        }
+        for (std::size_t i = 0; i < regions.size(); ++i) out_ << fmt::format(" {} {}", i + 1, regions[i]);
+        out_ << "\n# attributes of the boundary:";
+        for (std::size_t m = 0; m < mesh_.markers.size(); ++m)
+            out_ << fmt::format(" {} {}", m + 1, mesh_.markers[m].name);
+        out_ << "\n\ndimension\n2\n\n";
+    }
+    void write_cells() {
+        out_ << "elements\n" << cells_.cells() << '\n';
+        write_lines(out_, cells_.cells(), [&](LineText& line, std::size_t cell) {
+            const std::size_t corners = cells_.corners(cell);
+            line << std::size_t{attributes_[cell]} << std::size_t{corners == 3 ? mfem_triangle : mfem_square};
+            for (std::size_t i = 0; i < corners; ++i) line << cells_.corner(cell, i).index();
+        });
+    }
+    void write_boundary() {
+        out_ << "\nboundary\n" << count_marker_edges(mesh_) << '\n';
+        for (std::size_t m = 0; m < mesh_.markers.size(); ++m)
+            write_lines(out_, mesh_.markers[m].edges.size(), [&](LineText& line, std::size_t i) {
+                const Segment& edge = mesh_.markers[m].edges[i];
+                line << m + 1 << std::size_t{mfem_segment} << edge.a.index() << edge.b.index();
+            });
+    }
+    void write_vertices() {
+        out_ << "\nvertices\n" << mesh_.points.size() << '\n';
+        if (nodes_.order == 1)
+            out_ << "2\n";
+        else
+            out_ << fmt::format(
+                "\nnodes\nFiniteElementSpace\nFiniteElementCollection: H1@U_2D_P{}\nVDim: 2\nOrdering: 1\n\n",
+                nodes_.order);
+        write_lines(out_, mesh_.points.size(), [&](LineText& line, std::size_t i) { line << mesh_.points[i]; });
+        if (nodes_.order == 1) return;
+        write_nodes_of_edges();
+        write_nodes_of_cells();
+    }
+    void write_nodes_of_edges() {
+        const std::vector<std::uint32_t> edges = first_edges(mesh_);
+        const std::size_t within = nodes_.order - 1;
+        write_lines(out_, edges.size() * within, [&](LineText& line, std::size_t i) {
+            const std::size_t edge = edges[i / within], cell = cells_.cell_of(edge), k = i % within;
+            const bool is_ascending = cells_.origin(edge) < cells_.target(edge);
+            line << node(cell, (edge - cells_.first(cell)) * within + (is_ascending ? k : within - 1 - k));
+        });
+    }
+    void write_nodes_of_cells() {
+        std::size_t first = 0;
+        for (const auto& [corners, cells] :
+             {std::pair(3u, mesh_.triangles.size()), std::pair(4u, mesh_.quads.size())}) {
+            const std::vector<std::size_t> rows = rows_within(corners, nodes_.order);
+            const std::size_t border = std::size_t{corners} * (nodes_.order - 1);
+            write_lines(out_, cells * rows.size(), [&](LineText& line, std::size_t i) {
+                line << node(first + i / rows.size(), border + rows[i % rows.size()]);
+            });
+            first += cells;
+        }
+    }
+    /// Returns the place of a node of a cell, counted behind its corners.
+    Point node(std::size_t cell, std::size_t i) const {
+        return nodes_.points[mesh::inner_nodes(mesh_, nodes_, cell)[i].index() - mesh_.points.size()];
+    }
+
+    MeshView mesh_;
+    const CurvedNodes& nodes_;
+    mesh::CellEdges cells_;
+    std::ostream& out_;
+    std::vector<std::uint8_t> attributes_;  ///< of cells
+};
+
+}  // namespace
+
+void write_mfem(const MeshView& mesh, const CurvedNodes& nodes, const std::filesystem::path& file, std::ostream& out) {
+    require_marker_names(mesh.markers, file, "MFEM", "", 127);
+    MfemWriter(mesh, nodes, out).write();
+}
+
+}  // namespace lamina::io
