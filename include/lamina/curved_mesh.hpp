@@ -74,10 +74,10 @@ LAMINA_EXPORT CurvedCheck check_curved(const MeshView& mesh, const CurvedNodes& 
 
 /// How well curved cells follow walls.
 struct CurvingSummary {
-    std::size_t wall_edges = 0;    ///< edges of the walls of elements; those that keep their points are straight
+    std::size_t wall_edges = 0;    ///< edges of the walls of elements
     std::size_t curved_edges = 0;  ///< edges of walls whose nodes are on the curve of the wall
-    /// Edges between curve and chord: those beside cells that were invalid, and those that were divided after the walls
-    /// were prepared, whose parts are straight.
+    /// Edges between curve and chord: those beside cells that were invalid, and those that were divided beside the curve,
+    /// whose parts are straight.
     std::size_t reduced_edges = 0;
     double reduced_distance = 0;  ///< largest distance between such an edge and the curve, in units of the input
     double wall_distance = 0;     ///< largest distance of the others from it, halfway between nodes

@@ -66,10 +66,13 @@ struct SurfaceOptions {
     std::vector<SideEdges> side_edges{};
     std::vector<StationSpacing> station_spacings{};  ///< spacings at stations; they make `automatic` resample
     std::optional<Length> smooth{};  ///< points are smoothed first, and move by at most this; empty: no smoothing
-    double max_turning_deg = 10;     ///< largest turning at a vertex between two corners
-    double max_ratio = 1.2;          ///< largest ratio of neighbouring spacings, where none is below min_spacing
-    double gradation = 0.18;         ///< growth of the spacing per unit of arc length, within max_ratio
-    double max_spacing = 0.02;       ///< largest spacing
+    /// Whether walls whose points are kept on request follow a spline through these, where cells are curved; others do so
+    /// in any case.
+    bool curve_kept = false;
+    double max_turning_deg = 10;  ///< largest turning at a vertex between two corners
+    double max_ratio = 1.2;       ///< largest ratio of neighbouring spacings, where none is below min_spacing
+    double gradation = 0.18;      ///< growth of the spacing per unit of arc length, within max_ratio
+    double max_spacing = 0.02;    ///< largest spacing
     std::optional<double> leading_edge_spacing{};   ///< largest, at the point farthest from the trailing edge
     std::optional<double> trailing_edge_spacing{};  ///< at the trailing edge, in place of those at corners below
     double sharp_corner_spacing = 0.001;            ///< at corners that turn by more than 60 degrees

@@ -41,6 +41,9 @@ class MeshOptions(TypedDict, total=False):
     # edge, SHARE in lengths of the element; ELEMENT:upper:X=SHARE (lower) on one side; makes auto resample; may
     # be given several times
     spacing_at: str | float | Sequence[str | float] | None
+    # with surface keep and curved cells (order), walls follow the spline through their points between corners;
+    # else they are straight from point to point
+    curve_kept: bool | None
     # largest wall spacing, in lengths of the element; > 0 [0.02]
     spacing_max: float | None
     # smooth the points first; none moves by more than this; > 0

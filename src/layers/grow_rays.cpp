@@ -153,6 +153,7 @@ struct Walls {
     const Geometry& geometry;
     std::span<const OuterWall> outer;
     const Obstacles& obstacles;
+    const PlaceOnWall& place;
 
     /// Returns the numbers of the elements that have images: below a line of symmetry all others than those that it cuts,
     /// unless it cuts none; in a row all, again and again.
@@ -210,8 +211,9 @@ RaySet rays_of(const Walls& walls, std::span<const DividedWake> wakes, const Lay
         set_least_heights(own.least_heights, outline);
         for (RayVertex& vertex : outline)
             if (vertex.place == RayPlace::wall) vertex.foot = foot_at(vertex.at, walls.obstacles.feet);
-        const std::vector<RayLine> upright = make_rays(outline, kind, options, own);
-        std::vector<RayLine> rays = make_rays(outline, kind, options, own, heights_at_vertices(outline, upright, own));
+        const std::vector<RayLine> upright = make_rays(outline, kind, options, own, {}, walls.place);
+        std::vector<RayLine> rays =
+            make_rays(outline, kind, options, own, heights_at_vertices(outline, upright, own), walls.place);
         shown.push_back(element.is_mirrored ? mirror_rays(element, *geometry.symmetry, rays) : rays.size());
         set.lines.insert(set.lines.end(), rays.begin(), rays.end());
         set.begin.push_back(set.lines.size());
@@ -350,13 +352,14 @@ RaySet bare_walls(const Walls& walls, std::vector<std::size_t>& shown) {
 }  // namespace
 
 Rays grow_rays(const Geometry& geometry, const LayerOptions& options, const LayerGrowth& growth,
-               std::span<const OuterWall> outer_walls, const Obstacles& obstacles) {
+               std::span<const OuterWall> outer_walls, const Obstacles& obstacles, PlaceOnWall place_on_wall) {
     validate(options);
-    const Walls walls{geometry, outer_walls, obstacles};
+    const Walls walls{geometry, outer_walls, obstacles, place_on_wall};
     const std::vector<std::size_t> with_images = walls.with_images();
     const std::size_t images = with_images.size() + obstacles.outlines.size();
     const std::size_t elements = geometry.elements.size() + outer_walls.size() + images;
     Rays rays;
+    rays.place_on_wall = walls.place;
     rays.outer_walls = outer_walls.size();
     rays.images = images;
     rays.copies = geometry::shifts_in_row(geometry).size();

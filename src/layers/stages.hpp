@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -109,6 +111,10 @@ struct WakeCore {
     std::vector<std::size_t> stations;
 };
 
+/// Returns the place on the curve of a wall at a share, in (0, 1), of the way from one of its points to the next one,
+/// counter-clockwise; nothing where the wall is straight there.
+using PlaceOnWall = std::function<std::optional<Point>(Point from, Point to, double share)>;
+
 /// The rays and the number of layers on each. If the layer is disabled, each wall vertex has one ray without a
 /// direction and without layers.
 struct Rays {
@@ -139,6 +145,7 @@ struct Rays {
     std::size_t images = 0;
     /// Number of copies of all bodies in a row of blades, with which images begin: their rays are as high. 0: no row.
     std::size_t copies = 0;
+    PlaceOnWall place_on_wall{};  ///< where the wall's edges are divided; empty: on the straight edges
 
     /// Returns the number of elements of which a part is in the domain.
     std::size_t shown() const { return set.elements() - images; }
@@ -191,9 +198,11 @@ struct Obstacles {
 /// check_simple(geometry). Throws OptionError for options out of range, for heights below the resolution of the
 /// coordinates and for layers absurdly thicker than the input is wide. Outer walls become elements behind those of the
 /// geometry. Rays of bodies with a line of symmetry are images of each other; those on the line lie in it. Rays of copies in
-/// a row of blades are as high as each other. Obstacles have no layers; in a row they come with their copies.
+/// a row of blades are as high as each other. Obstacles have no layers; in a row they come with their copies. Refining rays
+/// stand on curved walls, and so do points that divide their edges later.
 Rays grow_rays(const Geometry& geometry, const LayerOptions& options, const LayerGrowth& growth,
-               std::span<const OuterWall> outer_walls = {}, const Obstacles& obstacles = {});
+               std::span<const OuterWall> outer_walls = {}, const Obstacles& obstacles = {},
+               PlaceOnWall place_on_wall = {});
 
 /// A circle.
 struct Circle {

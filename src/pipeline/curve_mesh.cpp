@@ -1,6 +1,7 @@
 #include "pipeline/curve_mesh.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,7 +11,6 @@
 #include <lamina/error.hpp>
 
 #include "core/lexicographic_order.hpp"
-#include "core/segments.hpp"
 #include "mesh/curve_cells.hpp"
 #include "pipeline/assemble.hpp"
 #include "pipeline/close_sheets.hpp"
@@ -23,42 +23,40 @@ using surface::CurvedEdge;
 
 constexpr const char* sheets_are_straight = "sheets have straight cells";
 
-/// The curves of walls, by whether the mesh has their edges.
+/// The curves of walls, by whether the mesh follows them.
 struct CurvesByEdges {
-    std::vector<mesh::WallCurve> walls;      ///< the curves of edges of the mesh
-    std::vector<const CurvedEdge*> divided;  ///< those whose ends alone are in it: they were divided afterwards
+    std::vector<mesh::WallCurve> walls;  ///< the stretches of curves between the vertices of the mesh
+    std::vector<std::size_t> straight;   ///< numbers of edges between two vertices, of which a part is beside the curve
 };
 
-/// Finds the edges of the mesh that stand between the same two points as an edge that has a curve.
-CurvesByEdges curves_by_edges(std::span<const CurvedEdge> given, const Mesh& mesh) {
-    std::vector<const CurvedEdge*> curves;
-    for (const CurvedEdge& edge : given) curves.push_back(&edge);
+/// Finds the edges of the mesh between two points of the same curve.
+CurvesByEdges curves_by_edges(const surface::WallCurves& curves, unsigned order, const Mesh& mesh) {
+    constexpr double rounding = 1e-9;
     const core::LexicographicOrder precedes;
-    const auto less = [&](const CurvedEdge* a, const CurvedEdge* b) {
-        return a->begin == b->begin ? precedes(a->end, b->end) : precedes(a->begin, b->begin);
-    };
-    std::sort(curves.begin(), curves.end(), less);
-    std::vector<bool> is_found(curves.size());
+    const std::span<const CurvedEdge> edges = curves.edges();
+    std::vector<double> followed(edges.size());
     std::vector<Point> vertices;
     CurvesByEdges by_edges;
     for (const Marker& marker : mesh.markers) {
         if (marker.kind != MarkerKind::wall) continue;
         for (const Segment& edge : marker.edges) {
             // The body is on the left of its outline, and the mesh on that of the marker.
-            const CurvedEdge wanted{mesh.points[edge.b.index()], mesh.points[edge.a.index()], {}};
-            vertices.insert(vertices.end(), {wanted.begin, wanted.end});
-            const auto found = std::lower_bound(curves.begin(), curves.end(), &wanted, less);
-            if (found == curves.end() || less(&wanted, *found)) continue;
-            is_found[static_cast<std::size_t>(found - curves.begin())] = true;
-            by_edges.walls.push_back({edge, {(*found)->between.rbegin(), (*found)->between.rend()}});
+            const Point begin = mesh.points[edge.b.index()], end = mesh.points[edge.a.index()];
+            vertices.insert(vertices.end(), {begin, end});
+            const std::optional<surface::CurveStretch> stretch = curves.between(begin, end);
+            if (!stretch) continue;
+            followed[static_cast<std::size_t>(stretch->edge - edges.data())] += stretch->to - stretch->from;
+            mesh::WallCurve& wall = by_edges.walls.emplace_back(mesh::WallCurve{edge, {}});
+            for (unsigned k = 2 * order - 1; k > 0; --k)
+                wall.between.push_back(stretch->at(static_cast<double>(k) / (2 * order)));
         }
     }
     // Edges below a line of symmetry are in no mesh, nor are those whose ends were moved back to given points.
     std::sort(vertices.begin(), vertices.end(), precedes);
     const auto is_vertex = [&](Point p) { return std::binary_search(vertices.begin(), vertices.end(), p, precedes); };
-    for (std::size_t c = 0; c < curves.size(); ++c)
-        if (!is_found[c] && is_vertex(curves[c]->begin) && is_vertex(curves[c]->end))
-            by_edges.divided.push_back(curves[c]);
+    for (std::size_t e = 0; e < edges.size(); ++e)
+        if (followed[e] < 1 - rounding && curves.bend(e) > 0 && is_vertex(edges[e].begin) && is_vertex(edges[e].end))
+            by_edges.straight.push_back(e);
     return by_edges;
 }
 
@@ -75,37 +73,27 @@ std::size_t edges_of_elements(const Geometry& geometry, const Mesh& mesh) {
     return edges;
 }
 
-/// Returns how far a curve is off its chord; 0 where that is rounding alone.
-double bend_of(const CurvedEdge& edge) {
-    double bend = 0;
-    for (const Point p : edge.between) bend = std::max(bend, core::distance_to_segment(p, edge.begin, edge.end));
-    return bend > 0x1p-48 * (length(edge.begin) + length(edge.end)) ? bend : 0;
-}
-
-/// Counts the edges that were divided among those of smaller bend, since their parts are straight, and warns of them.
-void report_divided_edges(std::span<const CurvedEdge* const> divided, MeshResult& result) {
-    std::size_t count = 0;
-    double largest = 0;
-    Point at{};
-    for (const CurvedEdge* edge : divided) {
-        const double bend = bend_of(*edge);
-        count += bend > 0;
-        if (bend <= largest) continue;
-        largest = bend;
-        at = midpoint(edge->begin, edge->end);
-    }
-    if (count == 0) return;
-    result.curving.reduced_edges += count;
-    result.curving.reduced_distance = std::max(result.curving.reduced_distance, largest);
+/// Counts the edges with straight parts beside the curve among those of smaller bend, and warns of them.
+void report_straight_edges(const surface::WallCurves& curves, std::span<const std::size_t> straight,
+                           MeshResult& result) {
+    if (straight.empty()) return;
+    const std::size_t worst = *std::max_element(straight.begin(), straight.end(), [&](std::size_t a, std::size_t b) {
+        return curves.bend(a) < curves.bend(b);
+    });
+    const Point at = midpoint(curves.edges()[worst].begin, curves.edges()[worst].end);
+    result.curving.reduced_edges += straight.size();
+    result.curving.reduced_distance = std::max(result.curving.reduced_distance, curves.bend(worst));
     result.warnings.push_back(
         {.code = WarningCode::surface_not_as_asked,
          .at = at,
-         .number = static_cast<double>(count),
+         .number = static_cast<double>(straight.size()),
          .unit = "wall edges",
-         .message = fmt::format(
-             "{} divided after the walls were prepared: the parts are straight, up to {:.2g} off the curve (at "
-             "({:.6g}, {:.6g})): --surface resample or more --surface-points make edges short enough",
-             count == 1 ? "1 wall edge was" : fmt::format("{} wall edges were", count), largest, at.x, at.y)});
+         .message =
+             fmt::format("{} divided beside the curve of the wall, lest walls cross: the parts are straight, up to "
+                         "{:.2g} off it (at "
+                         "({:.6g}, {:.6g})): --surface resample or more --surface-points make edges short enough",
+                         straight.size() == 1 ? "1 wall edge was" : fmt::format("{} wall edges were", straight.size()),
+                         curves.bend(worst), at.x, at.y)});
 }
 
 }  // namespace
@@ -123,16 +111,16 @@ void refuse_curved_sheets(unsigned order, const Geometry& geometry) {
     if (order > 1 && has_sheets(geometry)) throw OptionError("order", sheets_are_straight);
 }
 
-void curve_mesh(unsigned order, std::span<const CurvedEdge> curves, MeshResult& result) {
+void curve_mesh(unsigned order, const surface::WallCurves& curves, MeshResult& result) {
     if (result.layer_grid_refused)
         throw MeshError("the cells of the layer form no columns, which curved cells need: leave the order out");
-    const CurvesByEdges by_edges = curves_by_edges(curves, result.mesh);
+    const CurvesByEdges by_edges = curves_by_edges(curves, order, result.mesh);
     mesh::CurvedCells curved = mesh::curve_cells(result.mesh, order, by_edges.walls, {result.columns});
     result.curved = std::move(curved.nodes);
     result.curving = curved.summary;
     result.curved_check = std::move(curved.check);
     result.curving.wall_edges = edges_of_elements(result.geometry, result.mesh);
-    report_divided_edges(by_edges.divided, result);
+    report_straight_edges(curves, by_edges.straight, result);
 }
 
 }  // namespace lamina::pipeline

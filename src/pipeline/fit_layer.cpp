@@ -97,8 +97,10 @@ double largest_outer_edge(std::span<const OuterWallFacts> walls, const LayerRequ
 
 /// Makes rays on walls, within their far field.
 FittedLayer grow_within(const DomainRequest& domain, const LayerRequest& layer, const OuterWallSizes& sizes,
-                        Geometry geometry, const ReferenceConditions& conditions) {
+                        surface::PreparedSurfaces prepared, const ReferenceConditions& conditions) {
     const layers::LayerGrowth& growth = layer.growth;
+    Geometry geometry = std::move(prepared.geometry);
+    const auto curves = std::make_shared<const surface::WallCurves>(std::move(prepared.curves));
     decoupling::FarField far_field =
         decoupling::place_far_field(bounding_box(geometry), conditions.chord, domain.far_field);
     std::vector<OuterWallFacts> outer_walls =
@@ -109,11 +111,15 @@ FittedLayer grow_within(const DomainRequest& domain, const LayerRequest& layer, 
         divided = divide_outer_walls(
             outer_walls, far_field,
             sizes.field(geometry, conditions, far_field.box(), largest_outer_edge(outer_walls, layer)), lines);
+    layers::PlaceOnWall on_curve;
+    if (!curves->edges().empty())
+        on_curve = [curves](Point from, Point to, double share) { return curves->place(from, to, share); };
     const auto grow_past_lines = [&](std::span<const double> at_feet) {
         return layers::grow_rays(geometry, layer.options, growth, divided,
                                  obstacles_of(lines, growth.first_height, at_feet,
                                               geometry::is_cut(geometry) ? geometry.symmetry : std::nullopt,
-                                              geometry::shifts_in_row(geometry)));
+                                              geometry::shifts_in_row(geometry)),
+                                 on_curve);
     };
     // Above the layer at their feet, which is known once rays have grown, lines are in the way. Edges of rays may be no edges of
     // Delaunay layers.
@@ -132,6 +138,7 @@ FittedLayer grow_within(const DomainRequest& domain, const LayerRequest& layer, 
             .outer_walls = std::move(outer_walls),
             .rays = std::move(rays),
             .lines = std::move(lines),
+            .curves = curves,
             .first_front = std::move(front)};
 }
 
@@ -313,8 +320,7 @@ FittedLayer fit_layer(PreparedWalls walls, const LayerRequest& layer, const Doma
     const LayerOptions& options = layer.options;
     OuterWallSizes on_outer_walls{sizes.options, walls.limits.gradation};
     const auto grow = [&](surface::PreparedSurfaces prepared) {
-        FittedLayer fitted = grow_within(domain, layer, on_outer_walls, std::move(prepared.geometry), conditions);
-        fitted.curves = std::move(prepared.curves);
+        FittedLayer fitted = grow_within(domain, layer, on_outer_walls, std::move(prepared), conditions);
         fitted.sizes = sizes;
         request_sizes(fitted);
         return fitted;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "pipeline/outer_walls.hpp"
 #include "sizing/requests.hpp"
 #include "surface/spacing_limits.hpp"
+#include "surface/wall_curves.hpp"
 
 namespace lamina::pipeline {
 
@@ -53,8 +55,8 @@ struct FittedLayer {
     decoupling::FarField far_field;
     std::vector<OuterWallFacts> outer_walls;  ///< those of the far field
     layers::Rays rays;
-    LineGraph lines{};                          ///< those inside the domain
-    std::vector<surface::CurvedEdge> curves{};  ///< of the walls, for curved cells
+    LineGraph lines{};                                    ///< those inside the domain
+    std::shared_ptr<const surface::WallCurves> curves{};  ///< of the walls, for curved cells
     OuterSizes sizes{};
     sizing::SizeRequests requests{};
     std::vector<double> first_front{};      ///< of the rays, before any was shortened

@@ -211,7 +211,7 @@ surface::SpacingLimits spacing_limits(const LayerOptions& layer, const layers::L
                                       unsigned order) {
     surface::SpacingLimits limits;
     limits.max_turning_deg = layer.max_ray_angle_deg;
-    limits.points_between = points_on_curves(order);
+    limits.with_curves = order > 1;
     if (layer.equal_fans) limits.fan_parts = layers::equal_fan_parts(layer);
     // The layer's border over a fan of rays has edges of height x ray angle, and grows no faster than its gradation.
     // Where the wall's spacing exceeds this, border edges are divided, and the rows below fan out to the division

@@ -148,6 +148,10 @@ OptionTable<SurfaceOptions> option_rows() {
         "edge, SHARE in lengths of the element; ELEMENT:upper:X=SHARE (lower) on one side; makes auto resample; may be "
         "given several times",
         parse_station, station_text, at(&SurfaceOptions::station_spacings));
+    table.flag("curve-kept",
+               "with surface keep and curved cells (order), walls follow the spline through their points between "
+               "corners; else they are straight from point to point",
+               true, at(&SurfaceOptions::curve_kept));
     table.number("spacing-max", "SHARE", "largest wall spacing, in lengths of the element", positive_numbers,
                  at(&SurfaceOptions::max_spacing));
     table.length("smooth", "TOL", "smooth the points first; none moves by more than this", positive_numbers,

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -425,28 +426,16 @@ std::vector<GivenEdges> origins_of(const OutlineCurves& outline, const DividedCu
     return origins;
 }
 
-/// Returns the stretch of a curve between two positions, whose ends stand in the outline, with so many points.
-CurvedEdge stretch_between(const SplineCurve& curve, double from, double to, std::size_t points_between, Point begin,
-                           Point end) {
-    CurvedEdge edge{begin, end, {}};
-    const auto steps = static_cast<double>(points_between + 1);
-    for (std::size_t k = 1; k <= points_between; ++k)
-        edge.between.push_back(curve.between(from, to, static_cast<double>(k) / steps));
-    return edge;
-}
-
 /// Returns the stretches of the curves that the edges of a divided outline stand for.
-std::vector<CurvedEdge> curved_edges_of(const OutlineCurves& outline, const DividedCurves& divided,
-                                        std::size_t points_between) {
+std::vector<CurvedEdge> curved_edges_of(const OutlineCurves& outline, const DividedCurves& divided) {
     std::vector<CurvedEdge> edges;
     const std::size_t n = divided.points.size();
-    for (std::size_t c = 0; points_between > 0 && c < outline.curves.size(); ++c) {
-        const SplineCurve& curve = outline.curves[c].curve;
+    for (std::size_t c = 0; c < outline.curves.size(); ++c) {
+        const auto curve = std::make_shared<const SplineCurve>(outline.curves[c].curve);
         const std::size_t end = c + 1 < divided.starts.size() ? divided.starts[c + 1] : n;
         for (std::size_t i = divided.starts[c]; i < end; ++i) {
-            const double to = i + 1 < end ? divided.positions[i + 1] : static_cast<double>(curve.pieces());
-            edges.push_back(stretch_between(curve, divided.positions[i], to, points_between, divided.points[i],
-                                            divided.points[(i + 1) % n]));
+            const double to = i + 1 < end ? divided.positions[i + 1] : static_cast<double>(curve->pieces());
+            edges.push_back({divided.points[i], divided.points[(i + 1) % n], curve, divided.positions[i], to});
         }
     }
     return edges;
@@ -507,16 +496,17 @@ std::vector<double> edges_asked_for(const Element& given, std::size_t index, con
     return edges;
 }
 
-std::vector<CurvedEdge> interpolated_edges(const Element& element, std::size_t points_between) {
+std::vector<CurvedEdge> interpolated_edges(const Element& element) {
     const OutlineCurves curves = interpolating_curves(whole_outline(element));
     std::vector<CurvedEdge> edges;
-    for (std::size_t c = 0; c < curves.curves.size(); ++c)
-        for (std::size_t piece = 0; piece < curves.curves[c].curve.pieces(); ++piece) {
+    for (std::size_t c = 0; c < curves.curves.size(); ++c) {
+        const auto curve = std::make_shared<const SplineCurve>(curves.curves[c].curve);
+        for (std::size_t piece = 0; piece < curve->pieces(); ++piece) {
             const auto from = static_cast<double>(piece);
-            edges.push_back(stretch_between(curves.curves[c].curve, from, from + 1, points_between,
-                                            element.points[curves.knots[c][piece]],
-                                            element.points[curves.knots[c][piece + 1]]));
+            edges.push_back({element.points[curves.knots[c][piece]], element.points[curves.knots[c][piece + 1]], curve,
+                             from, from + 1});
         }
+    }
     return edges;
 }
 
@@ -553,7 +543,8 @@ ResampledElement resample(const Element& given, std::size_t index, const Resampl
 
     std::vector<GivenEdges> origins = origins_of(outline_curves, divided, given.points.size());
     Element element = given;
-    std::vector<CurvedEdge> curved = curved_edges_of(outline_curves, divided, request.limits.points_between);
+    std::vector<CurvedEdge> curved;
+    if (request.limits.with_curves) curved = curved_edges_of(outline_curves, divided);
     element.points = std::move(divided.points);
     element.lines = lines_of(given, element.points);
     element.features.corners.clear();

@@ -50,15 +50,15 @@ struct GivenEdges {
 /// put in its place. Arguments as for resample().
 std::vector<double> edges_asked_for(const Element& given, std::size_t index, const ResamplingRequest& request);
 
-/// Returns the spline through the points of an outline between corners, edge by edge, with so many points each.
-/// Precondition: the corners of the outline are known (Element::features).
-std::vector<CurvedEdge> interpolated_edges(const Element& element, std::size_t points_between);
+/// Returns the spline through the points of an outline between corners, edge by edge. Precondition: the corners of the
+/// outline are known (Element::features).
+std::vector<CurvedEdge> interpolated_edges(const Element& element);
 
 /// An element with new points.
 struct ResampledElement {
     Element element;
     std::vector<GivenEdges> origins;  ///< per new edge: the given ones whose place it takes
-    std::vector<CurvedEdge> curves;   ///< of the edges, unless SpacingLimits::points_between is 0
+    std::vector<CurvedEdge> curves;   ///< of the edges, unless SpacingLimits::with_curves is false
 };
 
 /// Returns the element, whose number in its geometry is `index`, with new points, and adds a note that quotes `reason`.

@@ -25,9 +25,9 @@ struct SpacingLimits {
     std::vector<double> fan_spacings{};  ///< one per element, in place of fan_spacing; empty: no element has its own
     /// Number of equal parts of each fan. The lengths above are those over rays that are max_turning_deg apart.
     std::optional<std::uint32_t> fan_parts{};
-    std::vector<geometry::WallSpacing>
-        walls{};                     ///< spacings of stretches of resampled walls; they grow by the gradation beside
-    std::size_t points_between = 0;  ///< number of points of each CurvedEdge; 0: there are none
+    /// Spacings of stretches of resampled walls; they grow by the gradation beside.
+    std::vector<geometry::WallSpacing> walls{};
+    bool with_curves = false;  ///< whether the curves of edges are asked for
 };
 
 /// Walls, and the curves of their edges. An edge without one is straight.
@@ -36,8 +36,8 @@ struct PreparedSurfaces {
     std::vector<CurvedEdge> curves;
 };
 
-/// Does what prepare_within() does, and returns the curves that the walls follow, of SpacingLimits::points_between points.
-/// Walls are straight where points are kept on request, and at sheets.
+/// Does what prepare_within() does, and returns the curves that the walls follow (SpacingLimits::with_curves). Walls are
+/// straight at sheets, and where points are kept on request without SurfaceOptions::curve_kept.
 LAMINA_EXPORT PreparedSurfaces prepare_with_curves(Geometry given, const SurfaceOptions& options,
                                                    const SpacingLimits& limits, std::optional<double> chord);
 

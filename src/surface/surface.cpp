@@ -278,14 +278,14 @@ void note_scatter(Geometry& given) {
     }
 }
 
-/// Leaves an outline as it is, on the curves between its points unless these are kept on request.
+/// Leaves an outline as it is, with the curves between its points where these are asked for.
 void keep_points(Plan& plan, Element& element, const Element& given, const ResamplingRequest& request) {
     element.surface_notes.push_back(fmt::format("{} points kept: {}", element.points.size(), plan.decision.reason));
     // Points that are kept on request may be as noisy and uneven as they like.
     const bool on_request = request.options.treatment == SurfaceTreatment::keep;
     element.smooth = !on_request && !is_jagged(given);
-    if (!on_request && request.limits.points_between > 0)
-        plan.curves = interpolated_edges(element, request.limits.points_between);
+    if (request.limits.with_curves && (!on_request || request.options.curve_kept))
+        plan.curves = interpolated_edges(element);
 }
 
 }  // namespace

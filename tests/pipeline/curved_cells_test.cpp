@@ -17,6 +17,7 @@
 #include "mesh/curved_nodes.hpp"
 #include "pipeline/cases.hpp"
 #include "support/temporary_folder.hpp"
+#include "surface/spacing_limits.hpp"
 
 namespace lamina::test {
 namespace {
@@ -134,6 +135,45 @@ MeshResult coarse_mesh(const Geometry& geometry, unsigned order, std::size_t edg
     return generate_mesh(geometry, options);
 }
 
+/// Returns the curves through the points of an outline.
+std::vector<surface::CurvedEdge> curves_of(const Outline& outline) {
+    return surface::prepare_with_curves(shapes::geometry({outline}),
+                                        {.treatment = SurfaceTreatment::keep, .curve_kept = true},
+                                        {.with_curves = true}, {})
+        .curves;
+}
+
+/// Returns the distance of a point from a curve, by a search with ever shorter steps from the nearest of some samples.
+double distance_from_curve(Point p, const surface::CurvedEdge& curve) {
+    double nearest = 0, step = 0.05;
+    for (int k = 0; k <= 20; ++k)
+        if (distance(curve.at(k * step), p) < distance(curve.at(nearest), p)) nearest = k * step;
+    for (int round = 0; round < 80; ++round, step *= 0.6)
+        for (const double share : {nearest - step, nearest + step})
+            if (distance(curve.at(share), p) < distance(curve.at(nearest), p)) nearest = share;
+    return distance(curve.at(nearest), p);
+}
+
+/// Returns the largest distance of vertices and nodes of the walls from these curves.
+double largest_distance_of_nodes(const MeshResult& result, const std::vector<surface::CurvedEdge>& curves) {
+    const std::size_t n = result.mesh.points.size();
+    double largest = 0;
+    std::size_t first = 0;
+    for (const Marker& marker : result.mesh.markers)
+        for (const Segment& edge : marker.edges) {
+            std::vector<Point> places{result.mesh.points[edge.a.index()]};
+            for (unsigned k = 0; k + 1 < result.curved.order; ++k)
+                places.push_back(result.curved.points[result.curved.marker_nodes[first++].index() - n]);
+            if (marker.kind != MarkerKind::wall) continue;
+            for (const Point p : places) {
+                double least = HUGE_VAL;
+                for (const surface::CurvedEdge& curve : curves) least = std::min(least, distance_from_curve(p, curve));
+                largest = std::max(largest, least);
+            }
+        }
+    return largest;
+}
+
 TEST(CurvedCells, ConvergeToExactWallsWithTheirOrder) {
     const Geometry section = make_geometry(read_inputs(std::vector<std::string>{"naca:0012"}));
     struct Wall {
@@ -171,19 +211,17 @@ TEST(CurvedCells, AreValidOverLayersOfEachTopology) {
         }
 }
 
-TEST(CurvedCells, ChangeNothingOfTheStraightMesh) {
-    for (const bool has_layer : {true, false}) {
-        CaseOptions options = curved_options(3);
-        options.layer.enabled = has_layer;
-        const MeshResult curved = generate_mesh({"naca:4412:90:blunt"}, options);
-        options.order = 1;
-        const MeshResult straight = generate_mesh({"naca:4412:90:blunt"}, options);
-        EXPECT_EQ(mesh_hash(curved.mesh), mesh_hash(straight.mesh));
-        EXPECT_EQ(curved.mesh.points, straight.mesh.points);
-        EXPECT_TRUE(straight.curved.points.empty());
-        EXPECT_GT(curved.estimate.memory_bytes, straight.estimate.memory_bytes);
-        expect_proved(curved, 3);
-    }
+TEST(CurvedCells, ChangeNothingOfTheStraightMeshOnResampledWalls) {
+    CaseOptions options = curved_options(3);
+    options.surface.treatment = SurfaceTreatment::resample;
+    const MeshResult curved = generate_mesh({"naca:4412:90:blunt"}, options);
+    options.order = 1;
+    const MeshResult straight = generate_mesh({"naca:4412:90:blunt"}, options);
+    EXPECT_EQ(mesh_hash(curved.mesh), mesh_hash(straight.mesh));
+    EXPECT_EQ(curved.mesh.points, straight.mesh.points);
+    EXPECT_TRUE(straight.curved.points.empty());
+    EXPECT_GT(curved.estimate.memory_bytes, straight.estimate.memory_bytes);
+    expect_proved(curved, 3);
 }
 
 TEST(CurvedCells, AreTheSameOnAnyNumberOfThreads) {
@@ -219,23 +257,36 @@ TEST(CurvedCells, OfTurnedAndMirroredWallsAreValidAsWell) {
     }
 }
 
-TEST(CurvedCells, OfWallsDividedAfterwardsAreReported) {
-    CaseOptions options = curved_options(3);
-    options.layer.enabled = false;
-    options.surface.treatment = SurfaceTreatment::automatic;
-    const MeshResult result = generate_mesh({"naca:4412:61:blunt"}, options);
-    expect_proved(result, 3);
-    const std::size_t straight = result.curving.wall_edges - result.curving.curved_edges;
-    EXPECT_EQ(result.curving.wall_edges, wall_edges(result.mesh));
-    ASSERT_GT(straight, 0u);  // the wall has edges that are longer than the triangles wanted there
-    EXPECT_GT(result.curving.reduced_edges, 0u);
-    EXPECT_LE(2 * result.curving.reduced_edges, straight);
-    EXPECT_GT(result.curving.reduced_distance, 1e-6);
-    const auto warning = std::find_if(result.warnings.begin(), result.warnings.end(), [](const Warning& w) {
-        return w.code == WarningCode::surface_not_as_asked && w.message.find("divided") != std::string::npos;
-    });
-    ASSERT_NE(warning, result.warnings.end());
-    EXPECT_EQ(warning->number, static_cast<double>(result.curving.reduced_edges));
+TEST(CurvedCells, FollowWallsThatAreDividedAfterwards) {
+    // Edges of walls without layers are longer than the triangles wanted there, and points that are kept turn by more than
+    // rays may. Walls with layers need both.
+    struct Divided {
+        bool has_layer;
+        SurfaceOptions surface;
+        Outline outline;
+    };
+    const SurfaceOptions kept{.treatment = SurfaceTreatment::keep, .curve_kept = true};
+    for (const Divided& divided : std::vector<Divided>{{false, {}, naca("4412", 60)},
+                                                       {false, kept, naca("4412", 60)},
+                                                       {true, kept, naca("4412", 60)},
+                                                       {true, kept, ellipse(0.4, 24)},
+                                                       {true, {}, naca("0012", 160)}})
+        for (unsigned order = 2; order <= max_cell_order; ++order) {
+            SCOPED_TRACE(testing::Message() << divided.outline.size() << " points, order " << order);
+            CaseOptions options = curved_options(order);
+            options.layer.enabled = divided.has_layer;
+            options.surface = divided.surface;
+            const MeshResult result = mesh_of({divided.outline}, options);
+            expect_proved(result, order);
+            EXPECT_EQ(result.curving.wall_edges, wall_edges(result.mesh));
+            EXPECT_EQ(result.curving.curved_edges, wall_edges(result.mesh));
+            EXPECT_EQ(result.curving.reduced_edges, 0u);
+            EXPECT_EQ(result.curving.reduced_distance, 0);
+            if (divided.surface.treatment == SurfaceTreatment::keep) {
+                EXPECT_GT(wall_edges(result.mesh), divided.outline.size());
+                EXPECT_LT(largest_distance_of_nodes(result, curves_of(divided.outline)), 1e-14);
+            }
+        }
 }
 
 TEST(CurvedCells, OfHalfSectionsHaveNoEdgesBelowTheSymmetry) {
@@ -257,6 +308,11 @@ TEST(CurvedCells, KeepCornersAndBasesAndPointsGiven) {
     const MeshResult kept = mesh_of({naca("0012", 200)}, options);
     EXPECT_EQ(kept.curving.curved_edges, 0u);
     EXPECT_TRUE(kept.curved_check.valid());
+    options.surface.curve_kept = true;
+    const MeshResult curved = mesh_of({naca("0012", 200)}, options);
+    EXPECT_EQ(curved.curving.curved_edges, wall_edges(curved.mesh));
+    EXPECT_LT(largest_distance_of_nodes(curved, curves_of(naca("0012", 200))), 1e-14);
+    EXPECT_LT(wall_error(curved, distance_from_naca_0012), 0.1 * wall_error(kept, distance_from_naca_0012));
 }
 
 TEST(CurvedCells, AreReadBackFromFiles) {

@@ -440,7 +440,7 @@ using FrontCorners = std::vector<std::vector<FrontCorner>>;
 /// Divides the fronts through these corners. least_requests, whole_up_to: as for divide_borders().
 BorderDivision divide_fronts(const LayeredRays& rays, const FrontCorners& corners, const BorderOptions& options,
                              std::span<const std::vector<double>> least_requests,
-                             std::span<const std::vector<double>> whole_up_to) {
+                             std::span<const std::vector<double>> whole_up_to, const PlaceOnWall& place_on_wall) {
     std::vector<std::vector<Point>> fronts(corners.size()), walls(corners.size());
     for (std::size_t e = 0; e < corners.size(); ++e) {
         for (const FrontCorner& corner : corners[e]) fronts[e].push_back(place_of(rays, corner));
@@ -450,7 +450,7 @@ BorderDivision divide_fronts(const LayeredRays& rays, const FrontCorners& corner
             walls[e].insert(walls[e].end(), ray.corner_after.begin(), ray.corner_after.end());
         }
     }
-    return divide_borders(fronts, walls, options, least_requests, whole_up_to);
+    return divide_borders(fronts, walls, options, least_requests, whole_up_to, place_on_wall);
 }
 
 /// Returns what divide_borders() needs to leave the tops of the grid's cells whole.
@@ -504,7 +504,7 @@ std::vector<geometry::WallSpacing> wall_spacings(const Rays& rays, const BorderO
     for (std::size_t e = 0; e < corners.size(); ++e)
         for (std::size_t k = 0; k < corners[e].size(); ++k)
             least_requests[e].push_back(corners[e][k].cleft ? 0 : wall_below(rays, corners[e], k).edge);
-    const BorderDivision division = divide_fronts(layered, corners, options, least_requests, {});
+    const BorderDivision division = divide_fronts(layered, corners, options, least_requests, {}, {});
     std::vector<geometry::WallSpacing> spacings;
     for (std::size_t e = 0; e < rays.shown(); ++e) {
         if (!rays.resampled[e]) continue;
@@ -525,7 +525,8 @@ Layer close_border(const Rays& rays, const BorderOptions& options) {
     const LayeredRays layered = layered_rays(rays);
     const FrontCorners corners = front_corners(rays);
     const std::vector<std::vector<double>> whole_up_to = whole_tops(rays, corners);
-    Layer layer = build_layer(rays, corners, divide_fronts(layered, corners, options, {}, whole_up_to));
+    Layer layer =
+        build_layer(rays, corners, divide_fronts(layered, corners, options, {}, whole_up_to, rays.place_on_wall));
     if (rays.enabled) layer.coverage = layer_coverage(rays);
     layer.growth = rays.growth;
     layer.jagged = rays.jagged;

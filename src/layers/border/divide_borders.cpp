@@ -404,12 +404,15 @@ std::vector<EdgeDivision> balanced_divisions(std::span<const PolygonEdge> edges,
     return divisions;
 }
 
-/// Returns the division points of an edge, without those that floating point cannot tell from their neighbours.
-std::vector<Point> division_points(const PolygonEdge& edge, const EdgeDivision& division) {
+/// Returns the division points of an edge, without those that floating point cannot tell from their neighbours. Those of a
+/// wall's edge are on its curve.
+std::vector<Point> division_points(const PolygonEdge& edge, const EdgeDivision& division, const PlaceOnWall& place) {
     std::vector<Point> points;
     Point before = edge.a;
     for (double at : division.division_points()) {
-        const Point p = edge.a + (at / edge.length) * (edge.b - edge.a);
+        const double share = at / edge.length;
+        Point p = edge.a + share * (edge.b - edge.a);
+        if (place) p = place(edge.a, edge.b, share).value_or(p);
         if (p == before || p == edge.b) continue;
         points.push_back(p);
         before = p;
@@ -429,14 +432,14 @@ std::vector<Point> points_across(const PolygonEdge& other, const std::vector<Poi
 
 BorderDivision divide_borders(std::span<const std::vector<Point>> fronts, std::span<const std::vector<Point>> walls,
                               const BorderOptions& options, std::span<const std::vector<double>> least_requests,
-                              std::span<const std::vector<double>> whole_up_to) {
+                              std::span<const std::vector<double>> whole_up_to, const PlaceOnWall& place_on_wall) {
     const std::vector<PolygonEdge> edges = polygon_edges(fronts, least_requests);
     const std::vector<std::size_t> across = edges_back_to_back(edges);
     const std::vector<EdgeDivision> divisions = balanced_divisions(edges, across, options, whole_up_to);
     std::vector<std::vector<Point>> points(edges.size());
     for (std::size_t i = 0; i < edges.size(); ++i)
         points[i] = across[i] < i ? points_across(edges[across[i]], points[across[i]], edges[i])
-                                  : division_points(edges[i], divisions[i]);
+                                  : division_points(edges[i], divisions[i], place_on_wall);
     undo_crossings(edges, polygon_edges(walls), points);
 
     BorderDivision result;

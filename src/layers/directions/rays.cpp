@@ -101,11 +101,11 @@ void add_vertex_rays(const RayVertex& at, const WallVertex& vertex, double max_a
     if (at.foot) turn_to_line(*at.foot, max_angle, std::span(rays).last(parts + 1));
 }
 
-/// Adds the rays between two others that differ by more than the largest angle, evenly spaced on the edge. Corners of
+/// Adds the rays between two others that differ by more than the largest angle, evenly spaced on the wall. Corners of
 /// jagged outlines are so many, and their edges so short, that neighbouring edges would differ by whole factors
 /// (docs/layer.md). Rays are added there only where a column opens widely, none where rays converge.
 void add_refining_rays(const RayLine& first, const RayLine& last, double max_angle, const OutlineRules& rules,
-                       std::vector<RayLine>& rays) {
+                       const PlaceOnWall& place, std::vector<RayLine>& rays) {
     const Point from = first.origin, to = last.origin, normal = -perpendicular(unit(to - from));
     // Rays stay within 90 degrees of the edge's normal, so that the difference of the two angles needs no wrapping.
     const double first_angle = core::angle_between(normal, first.direction),
@@ -115,7 +115,8 @@ void add_refining_rays(const RayLine& first, const RayLine& last, double max_ang
     for (std::size_t k = 1; k < parts; ++k) {
         const double part = static_cast<double>(k), whole = static_cast<double>(parts), rest = whole - part;
         const auto between = [&](double a, double b) { return (rest * a + part * b) / whole; };
-        const Point origin{between(from.x, to.x), between(from.y, to.y)};
+        Point origin{between(from.x, to.x), between(from.y, to.y)};
+        if (place) origin = place(from, to, part / whole).value_or(origin);
         // The edge may be too short to be divided in floating point.
         if (origin == rays.back().origin || origin == to || origin == from) continue;
         rays.push_back({.origin = origin,
@@ -127,7 +128,7 @@ void add_refining_rays(const RayLine& first, const RayLine& last, double max_ang
 }  // namespace
 
 std::vector<RayLine> make_rays(std::span<const RayVertex> outline, OutlineKind kind, const LayerOptions& options,
-                               const LayerGrowth& growth, std::span<const double> heights) {
+                               const LayerGrowth& growth, std::span<const double> heights, const PlaceOnWall& place) {
     const OutlineRules& rules = rules_of(kind);
     const double min_fan_turning_deg = rules.blunt_fans && !options.equal_fans
                                            ? std::min(geometry::sharp_corner_deg, 2 * options.max_ray_angle_deg)
@@ -148,7 +149,7 @@ std::vector<RayLine> make_rays(std::span<const RayVertex> outline, OutlineKind k
         const RayLine after{.origin = outline[next].at,
                             .direction = first_direction(vertices[next]),
                             .least_height = outline[next].least_height};
-        add_refining_rays(RayLine(rays.back()), after, most_opening(kind, options), rules, rays);
+        add_refining_rays(RayLine(rays.back()), after, most_opening(kind, options), rules, place, rays);
     }
     return rays;
 }
