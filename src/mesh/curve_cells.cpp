@@ -208,14 +208,21 @@ CurvedNodes number_nodes(const MeshView& mesh, const NodeNumbers& numbers, unsig
     nodes.order = order;
     const CellEdges& cells = numbers.cells();
     nodes.points.resize(numbers.count());
-    for (std::size_t cell = 0; cell < cells.cells(); ++cell) {
-        std::vector<VertexId>& list = cells.corners(cell) == 3 ? nodes.triangle_nodes : nodes.quad_nodes;
-        for (std::size_t e = cells.first(cell); e < cells.first(cell + 1); ++e)
-            for (std::size_t k = 0; k + 1 < order; ++k)
-                list.push_back(numbers.id(numbers.of_edge(static_cast<std::uint32_t>(e), k)));
-        for (std::size_t i = 0; i < numbers.within_cell(cell); ++i)
-            list.push_back(numbers.id(numbers.first_of_cell(cell) + i));
-    }
+    const std::size_t triangles = mesh.triangles.size(), of_triangle = nodes_of_cell(3, order) - 3,
+                      of_quad = nodes_of_cell(4, order) - 4;
+    nodes.triangle_nodes.resize(triangles * of_triangle);
+    nodes.quad_nodes.resize(mesh.quads.size() * of_quad);
+    core::parallel_for(cells.cells(), cells_per_block, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t cell = begin; cell < end; ++cell) {
+            VertexId* at = cell < triangles ? nodes.triangle_nodes.data() + cell * of_triangle
+                                            : nodes.quad_nodes.data() + (cell - triangles) * of_quad;
+            for (std::size_t e = cells.first(cell); e < cells.first(cell + 1); ++e)
+                for (std::size_t k = 0; k + 1 < order; ++k)
+                    *at++ = numbers.id(numbers.of_edge(static_cast<std::uint32_t>(e), k));
+            const std::size_t first = numbers.first_of_cell(cell), within = numbers.within_cell(cell);
+            for (std::size_t i = 0; i < within; ++i) *at++ = numbers.id(first + i);
+        }
+    });
     std::vector<Segment> edges;
     for (const Marker& marker : mesh.markers) edges.insert(edges.end(), marker.edges.begin(), marker.edges.end());
     const std::vector<std::uint32_t> found = find_edges(mesh, edges);
@@ -229,13 +236,22 @@ CurvedNodes number_nodes(const MeshView& mesh, const NodeNumbers& numbers, unsig
 /// Places the nodes of cells. Edges come first; what moves them moves the cells on both sides.
 class NodePlacer {
 public:
-    NodePlacer(const MeshView& mesh, const NodeNumbers& numbers, std::span<const BentColumn> columns, unsigned order)
+    NodePlacer(const MeshView& mesh, const NodeNumbers& numbers, const Adjacency& adjacency,
+               std::span<const BentColumn> columns, unsigned order)
         : mesh_(mesh), numbers_(numbers), cells_(mesh), columns_(columns), order_(order) {
         bend_of_edge_.resize(cells_.size(), {no_bend, 0});
         column_of_cell_.resize(cells_.cells(), {no_bend, 0});
+        has_bent_edge_.resize(cells_.cells());
+        for (const unsigned corners : {3u, 4u})
+            for (const LatticePlace& place : lattice_of_cell(corners, order))
+                weights_[corners - 3].push_back(corner_weights(corners, place));
         for (std::uint32_t c = 0; c < columns.size(); ++c) {
-            for (std::uint32_t f = 0; f < columns[c].fronts.size(); ++f)
-                bend_of_edge_[columns[c].fronts[f].edge] = {c, f};
+            for (std::uint32_t f = 0; f < columns[c].fronts.size(); ++f) {
+                const std::uint32_t edge = columns[c].fronts[f].edge, twin = adjacency.twin[edge];
+                bend_of_edge_[edge] = {c, f};
+                has_bent_edge_[cells_.cell_of(edge)] = true;
+                if (twin != no_edge) has_bent_edge_[cells_.cell_of(twin)] = true;
+            }
             for (std::uint32_t k = 0; k < columns[c].cells.size(); ++k)
                 column_of_cell_[columns[c].cells[k].cell] = {c, k};
         }
@@ -271,6 +287,7 @@ private:
     Point at(VertexId v) const { return mesh_.points[v.index()]; }
     void place_edge(std::uint32_t edge, const Adjacency& adjacency, std::vector<Point>& places) const {
         if (!numbers_.is_owner(edge)) return;
+        const std::size_t first = numbers_.of_edge(edge, 0);
         const Point a = at(cells_.origin(edge)), b = at(cells_.target(edge));
         const std::uint32_t twin = adjacency.twin[edge];
         const bool is_reversed = bend_of_edge_[edge].column == no_bend && twin != no_edge;
@@ -278,7 +295,7 @@ private:
         for (unsigned k = 1; k < order_; ++k) {
             Point node = a + (static_cast<double>(k) / order_) * (b - a);
             if (bent.column != no_bend) node = node + bend_of_front(bent, is_reversed ? order_ - k : k);
-            places[numbers_.of_edge(edge, k - 1)] = node;
+            places[first + k - 1] = node;
         }
     }
     Point bend_of_front(const InColumn& bent, unsigned k) const {
@@ -294,13 +311,17 @@ private:
         const std::size_t first = numbers_.first_of_cell(cell);
         const std::size_t border = std::size_t{corners} * order_;
         const InColumn in = column_of_cell_[cell];
+        std::array<Point, 4> vertices{};
+        for (std::size_t c = 0; c < corners; ++c) vertices[c] = at(cells_.corner(cell, c));
         for (std::size_t i = border; i < lattice.size(); ++i) {
-            const std::array<double, 4> weights = corner_weights(corners, lattice[i]);
+            const std::array<double, 4>& weights = weights_[corners - 3][i];
             Point node{0, 0};
-            for (std::size_t c = 0; c < corners; ++c) node = node + weights[c] * at(cells_.corner(cell, c));
-            places[first + i - border] =
-                node + (in.column != no_bend ? bend_in_column(in, corners, weights)
-                                             : bend_between_edges(cell, corners, lattice[i], places));
+            for (std::size_t c = 0; c < corners; ++c) node = node + weights[c] * vertices[c];
+            if (in.column != no_bend)
+                node = node + bend_in_column(in, corners, weights);
+            else if (has_bent_edge_[cell])
+                node = node + bend_between_edges(cell, corners, lattice[i], places);
+            places[first + i - border] = node;
         }
     }
     /// Returns how much of each corner a node of the straight cell is.
@@ -351,6 +372,8 @@ private:
     std::span<const BentColumn> columns_;
     unsigned order_;
     std::vector<InColumn> bend_of_edge_, column_of_cell_;
+    std::array<std::vector<std::array<double, 4>>, 2> weights_;  ///< corner_weights() in triangles and quadrilaterals
+    std::vector<char> has_bent_edge_;                            ///< per cell: whether columns bend an edge of it
 };
 
 // ---- walls -----------------------------------------------------------------------------------------------------------
@@ -433,7 +456,7 @@ CurvedCells curve_cells(const MeshView& mesh, unsigned order, std::span<const Wa
     std::vector<BentColumn> columns = bent_columns(mesh, adjacency, order, walls, numbers_of_columns);
     const NodeNumbers numbers(mesh, adjacency, order);
     CurvedCells curved{number_nodes(mesh, numbers, order), {}, {}};
-    const NodePlacer placer(mesh, numbers, columns, order);
+    const NodePlacer placer(mesh, numbers, adjacency, columns, order);
     std::vector<int> halvings(walls.size());
     for (;;) {
         placer.place_edges(adjacency, curved.nodes.points);

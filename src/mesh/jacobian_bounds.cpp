@@ -7,6 +7,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -17,7 +18,8 @@ namespace lamina::mesh {
 namespace {
 
 constexpr int max_halvings = 2 * 12;  // in two directions by turns
-constexpr double rounding_unit = 0x1p-53;
+constexpr double rounding_unit = 0x1p-53, for_rounding_of_scale = 0x1p-50;
+constexpr double largest_number = 0x1p1022;  // sums of a coefficient and its error do not overflow
 
 double factorial(unsigned n) { return n < 2 ? 1 : n * factorial(n - 1); }
 double binomial(unsigned n, unsigned k) { return factorial(n) / (factorial(k) * factorial(n - k)); }
@@ -52,25 +54,36 @@ struct CoefficientGrid {
 /// The difference of two Bernstein coefficients of the map, one of its derivative.
 struct Difference {
     std::size_t plus, minus;
+    double weight;  ///< of the coefficient in products
+};
+
+/// The part of a coefficient of the map that a node has.
+struct NodeFactor {
+    std::size_t node;
+    double value;  ///< a whole number, not 0
 };
 
 /// The part of a coefficient of the determinant that two derivatives have.
 struct ProductTerm {
-    std::size_t coefficient, along, across;  ///< `along` and `across` are places in the lists of derivatives
-    double weight;
+    std::uint32_t along, across;  ///< places in the lists of derivatives
 };
 
 /// How nodes become the coefficients of the determinant, but for the factor `scale`.
 struct DeterminantRule {
     CoefficientGrid grid;  ///< of the determinant
+    unsigned order = 1;
     std::size_t nodes = 0;
-    std::vector<double> to_bernstein;  ///< whole numbers: per node, its factors in all coefficients of the map
-    double largest_row = 0;            ///< largest sum of the sizes of the factors of a coefficient
+    std::vector<NodeFactor> to_bernstein;   ///< coefficient by coefficient of the map
+    std::vector<std::size_t> first_factor;  ///< of each coefficient of the map, then the end
+    double largest_row = 0;                 ///< largest sum of the sizes of the factors of a coefficient
     std::vector<Difference> along, across;
-    std::vector<ProductTerm> terms;
-    std::size_t terms_of_one = 0;      ///< largest number of terms of one coefficient
-    double scale = 1;                  ///< the determinant over what the terms amount to
-    std::vector<std::size_t> corners;  ///< the coefficients that are values at the corners
+    std::vector<ProductTerm> terms;       ///< coefficient by coefficient
+    std::vector<std::size_t> first_term;  ///< of each coefficient of the determinant, then the end
+    std::size_t terms_of_one = 0;         ///< largest number of terms of one coefficient
+    std::vector<double> weights;          ///< of the coefficients, which are sums of products over their weight
+    double slope_of_bend = 1;             ///< no derivative of a map with nodes up to 1 has larger coefficients
+    double scale = 1;                     ///< the determinant over what the terms amount to
+    std::vector<std::size_t> corners;     ///< the coefficients that are values at the corners
 };
 
 /// A homogeneous polynomial in three variables of degree d: the coefficient of x^i y^j z^(d-i-j) at [i][j].
@@ -116,20 +129,31 @@ double square_factor(unsigned p, const LatticePlace& node, unsigned a, unsigned 
     return triangle_factor(p, {node.i, p - node.i}, a, p - a) * triangle_factor(p, {node.j, p - node.j}, b, p - b);
 }
 
+/// Puts lists one behind the other, and says where each begins, and the last one ends.
+template <class T>
+void join_lists(const std::vector<std::vector<T>>& lists, std::vector<T>& joined, std::vector<std::size_t>& first) {
+    first = {0};
+    for (const std::vector<T>& list : lists) {
+        joined.insert(joined.end(), list.begin(), list.end());
+        first.push_back(joined.size());
+    }
+}
+
 void add_conversion(unsigned corners, unsigned p, const CoefficientGrid& map, DeterminantRule& rule) {
     const std::span<const LatticePlace> lattice = lattice_of_cell(corners, p);
     rule.nodes = lattice.size();
-    rule.to_bernstein.resize(map.size() * rule.nodes);
+    std::vector<std::vector<NodeFactor>> of_coefficients(map.size());
     map.for_each([&](unsigned a, unsigned b) {
         double sum = 0;
         for (std::size_t node = 0; node < rule.nodes; ++node) {
             const double factor =
                 corners == 3 ? triangle_factor(p, lattice[node], a, b) : square_factor(p, lattice[node], a, b);
-            rule.to_bernstein[node * rule.nodes + map.at(a, b)] = factor;
+            if (factor != 0) of_coefficients[map.at(a, b)].push_back({node, factor});
             sum += std::abs(factor);
         }
         rule.largest_row = std::max(rule.largest_row, sum);
     });
+    join_lists(of_coefficients, rule.to_bernstein, rule.first_factor);
 }
 
 /// Adds the derivatives along i and j and what their products amount to. A derivative on the square is of lower degree in
@@ -138,17 +162,23 @@ void add_products(const CoefficientGrid& map, const CoefficientGrid& along, cons
                   DeterminantRule& rule) {
     rule.along.resize(along.size());
     rule.across.resize(across.size());
-    along.for_each([&](unsigned i, unsigned j) { rule.along[along.at(i, j)] = {map.at(i + 1, j), map.at(i, j)}; });
-    across.for_each([&](unsigned i, unsigned j) { rule.across[across.at(i, j)] = {map.at(i, j + 1), map.at(i, j)}; });
+    along.for_each([&](unsigned i, unsigned j) {
+        rule.along[along.at(i, j)] = {map.at(i + 1, j), map.at(i, j), along.weight(i, j)};
+    });
+    across.for_each([&](unsigned i, unsigned j) {
+        rule.across[across.at(i, j)] = {map.at(i, j + 1), map.at(i, j), across.weight(i, j)};
+    });
+    std::vector<std::vector<ProductTerm>> of_coefficients(rule.grid.size());
     along.for_each([&](unsigned i, unsigned j) {
         across.for_each([&](unsigned k, unsigned l) {
-            rule.terms.push_back({rule.grid.at(i + k, j + l), along.at(i, j), across.at(k, l),
-                                  along.weight(i, j) * across.weight(k, l) / rule.grid.weight(i + k, j + l)});
+            std::vector<ProductTerm>& terms = of_coefficients[rule.grid.at(i + k, j + l)];
+            terms.push_back({static_cast<std::uint32_t>(along.at(i, j)), static_cast<std::uint32_t>(across.at(k, l))});
+            rule.terms_of_one = std::max(rule.terms_of_one, terms.size());
         });
     });
-    std::vector<std::size_t> counts(rule.grid.size());
-    for (const ProductTerm& term : rule.terms)
-        rule.terms_of_one = std::max(rule.terms_of_one, ++counts[term.coefficient]);
+    join_lists(of_coefficients, rule.terms, rule.first_term);
+    rule.weights.resize(rule.grid.size());
+    rule.grid.for_each([&](unsigned i, unsigned j) { rule.weights[rule.grid.at(i, j)] = rule.grid.weight(i, j); });
 }
 
 DeterminantRule make_rule(unsigned corners, unsigned p) {
@@ -157,10 +187,12 @@ DeterminantRule make_rule(unsigned corners, unsigned p) {
     const unsigned degree = is_triangle ? 2 * (p - 1) : 2 * p - 1;
     DeterminantRule rule;
     rule.grid = {corners, degree, degree};
+    rule.order = p;
     add_conversion(corners, p, map, rule);
     add_products(map, {corners, p - 1, p}, {corners, is_triangle ? p - 1 : p, p - 1}, rule);
     const double factor = std::pow(factorial(p), is_triangle ? 2 : 4);
     rule.scale = (p / factor) * (p / factor);
+    rule.slope_of_bend = 2 * p * rule.largest_row / factor;
     rule.corners = {rule.grid.at(0, 0), rule.grid.at(degree, 0), rule.grid.at(0, degree)};
     if (!is_triangle) rule.corners.push_back(rule.grid.at(degree, degree));
     return rule;
@@ -179,10 +211,201 @@ const DeterminantRule& rule_of(unsigned corners, unsigned order) {
     return (corners == 3 ? triangles : squares)[order];
 }
 
-// ---- coefficients of one cell ----------------------------------------------------------------------------------------
+// ---- coefficients of several cells side by side -----------------------------------------------------------------------
+
+// Operations on all lanes at once, which the compiler makes for wider registers once more. Each lane does what it would do
+// alone, so that no bit depends on the others.
+
+constexpr std::size_t most_nodes = nodes_of_cell(4, max_cell_order);
+
+using Lanes = JacobianBatch::Lanes;
+
+inline void raise_to(Lanes& a, const Lanes& b) { a = a < b ? b : a; }
+inline void lower_to(Lanes& a, const Lanes& b) { a = b < a ? b : a; }
+inline void raise_to_size(Lanes& a, const Lanes& b) {
+    raise_to(a, b);
+    raise_to(a, -b);
+}
+
+constexpr std::size_t most_coefficients = std::size_t{4} * max_cell_order * max_cell_order;
+
+/// The largest sizes of numbers and of their errors.
+struct Magnitudes {
+    Lanes size{}, error{};
+};
+
+/// The derivatives of one coordinate, but for a factor and times their weights, and how large they are.
+struct Derivatives {
+    std::array<Lanes, std::size_t{max_cell_order + 1} * max_cell_order> along, across;
+    Magnitudes largest;
+};
+
+/// Puts the coefficients of the derivative along one direction, times their weights, into `values`, and the largest of
+/// their sizes without weights into `largest`.
+template <class Values>
+inline void differentiate(const std::vector<Difference>& differences, const std::array<Lanes, most_nodes>& map,
+                          Values& values, Lanes& largest) {
+    for (std::size_t i = 0; i < differences.size(); ++i) {
+        const Lanes difference = map[differences[i].plus] - map[differences[i].minus];
+        raise_to_size(largest, difference);
+        values[i] = differences[i].weight * difference;
+    }
+}
+
+/// Coordinates count from the first node on, which makes them small.
+inline void differentiate(const DeterminantRule& rule, const std::array<Lanes, most_nodes>& nodes,
+                          Derivatives& result) {
+    const std::size_t n = rule.nodes;
+    std::array<Lanes, most_nodes> local, map;
+    Lanes largest{};
+    for (std::size_t i = 0; i < n; ++i) {
+        local[i] = nodes[i] - nodes[0];
+        raise_to_size(largest, local[i]);
+    }
+    for (std::size_t a = 0; a < n; ++a) {
+        Lanes sum{};
+        for (std::size_t k = rule.first_factor[a]; k < rule.first_factor[a + 1]; ++k)
+            sum += rule.to_bernstein[k].value * local[rule.to_bernstein[k].node];
+        map[a] = sum;
+    }
+    result.largest = {};
+    differentiate(rule.along, map, result.along, result.largest.size);
+    differentiate(rule.across, map, result.across, result.largest.size);
+    // Each of n products and sums rounds, and so has the local coordinate (Higham, section 3.1).
+    const double of_map = (static_cast<double>(n) + 2) * rounding_unit * rule.largest_row;
+    result.largest.error = 2 * of_map * largest + rounding_unit * result.largest.size;
+}
+
+/// The derivatives of straight cells at their sides, and how far nodes are off these cells: one coordinate.
+struct StraightSides {
+    std::array<Lanes, 2> along, across;  ///< by s at t = 0 and 1, and by t at s = 0 and 1
+    Lanes largest_along{}, largest_across{}, largest{}, bend{};
+};
+
+inline void measure_sides(unsigned corners, unsigned p, const std::array<Lanes, most_nodes>& nodes,
+                          StraightSides& sides) {
+    const std::span<const LatticePlace> lattice = lattice_of_cell(corners, p);
+    const Lanes a = nodes[1] - nodes[0], b = nodes[2] - nodes[0], c = nodes[corners - 1] - nodes[0];
+    const Lanes twist = corners == 3 ? Lanes{} : b - a - c;
+    sides.along = {a, a + twist};
+    sides.across = {c, c + twist};
+    for (std::size_t k = 0; k < 2; ++k) {
+        raise_to_size(sides.largest_along, sides.along[k]);
+        raise_to_size(sides.largest_across, sides.across[k]);
+    }
+    sides.largest = sides.largest_along + sides.largest_across;
+    for (std::size_t n = corners; n < lattice.size(); ++n) {
+        const double s = static_cast<double>(lattice[n].i) / p, t = static_cast<double>(lattice[n].j) / p;
+        raise_to_size(sides.bend, nodes[n] - nodes[0] - s * a - t * c - (s * t) * twist);
+    }
+    sides.bend += 64 * rounding_unit * sides.largest;  // of a dozen operations on numbers up to twice this large
+}
+
+/// Bounds of the determinants of cells from those of the straight cells with the same corners.
+struct StraightBounds {
+    Lanes lower, upper;
+    Lanes error;  ///< what is taken off and added for bends and rounding
+
+    /// Returns whether the bounds of a cell are as good as those by its coefficients.
+    bool are_tight(std::size_t lane) const {
+        return lower[lane] > 0 && upper[lane] < largest_number && error[lane] < 0x1p-20 * lower[lane];
+    }
+};
+
+/// The derivative of what is off the straight cell is at most slope_of_bend times the largest distance, and the determinant
+/// of a straight cell lies between those at its corners.
+inline void bound_straight(unsigned corners, unsigned p, double slope, const JacobianBatch& batch,
+                           StraightBounds& bounds) {
+    StraightSides x, y;
+    measure_sides(corners, p, batch.x, x);
+    measure_sides(corners, p, batch.y, y);
+    for (std::size_t k = 0; k < 4; ++k) {
+        const Lanes determinant = x.along[k / 2] * y.across[k % 2] - y.along[k / 2] * x.across[k % 2];
+        if (k == 0) bounds.lower = bounds.upper = determinant;
+        lower_to(bounds.lower, determinant);
+        raise_to(bounds.upper, determinant);
+    }
+    constexpr double for_underflow = 1e-290, for_rounding_of_this = 2;
+    const Lanes of_rounding = 64 * rounding_unit * x.largest * y.largest;
+    const Lanes of_bend = slope * (x.largest * y.bend + y.largest * x.bend) + 2 * slope * slope * x.bend * y.bend;
+    bounds.error = for_rounding_of_this * (of_rounding + of_bend) + for_underflow;
+    bounds.lower -= bounds.error;
+    bounds.upper += bounds.error;
+}
+
+/// Coefficients of determinants, and what is known of them.
+struct Determinants {
+    std::array<Lanes, most_coefficients> coefficients;
+    Lanes radius;             ///< each coefficient is within this of the exact one
+    Lanes smallest, largest;  ///< of the coefficients
+    Lanes sum;                ///< of their sizes; not finite where one of them is not
+    StraightBounds straight;  ///< where all cells are as good as straight, there is nothing else
+};
+
+/// Bounds the errors of the sums of products x y' - x' y, whose weights amount to 1.
+inline void bound_errors(const DeterminantRule& rule, const Magnitudes& x, const Magnitudes& y, Lanes& radius) {
+    constexpr double for_rounding_of_this = 1 + 0x1p-20, for_underflow = 1e-290;
+    const Lanes of_factors = 2 * (x.size * y.error + y.size * x.error + x.error * y.error);
+    const Lanes of_products = 2 * x.size * y.size;  // not finite where a product is not
+    const Lanes of_sums = of_products * ((static_cast<double>(rule.terms_of_one) + 6) * rounding_unit);
+    radius = for_rounding_of_this * (of_factors + of_sums) + for_underflow;
+}
+
+inline void bound_coefficients(const DeterminantRule& rule, const JacobianBatch& batch, Determinants& determinants) {
+    Derivatives x, y;
+    differentiate(rule, batch.x, x);
+    differentiate(rule, batch.y, y);
+    bound_errors(rule, x.largest, y.largest, determinants.radius);
+    const std::size_t n = rule.grid.size();
+    for (std::size_t c = 0; c < n; ++c) {
+        Lanes sum{};
+        for (std::size_t k = rule.first_term[c]; k < rule.first_term[c + 1]; ++k) {
+            const ProductTerm& t = rule.terms[k];
+            sum += x.along[t.along] * y.across[t.across] - y.along[t.along] * x.across[t.across];
+        }
+        determinants.coefficients[c] = sum / rule.weights[c];
+    }
+    determinants.smallest = determinants.largest = determinants.coefficients[0];
+    determinants.sum = Lanes{};
+    for (std::size_t c = 0; c < n; ++c) {
+        const Lanes& of_cells = determinants.coefficients[c];
+        lower_to(determinants.smallest, of_cells);
+        raise_to(determinants.largest, of_cells);
+        Lanes size = of_cells;
+        raise_to(size, -of_cells);
+        determinants.sum += size;
+    }
+}
+
+/// Bounds the determinants of straight cells by their corners, and those of others by their coefficients.
+inline void bound_lanes(const DeterminantRule& rule, const JacobianBatch& batch, Determinants& determinants) {
+    bound_straight(rule.grid.corners, rule.order, rule.slope_of_bend, batch, determinants.straight);
+    std::size_t tight = 0;
+    while (tight < batch.size && determinants.straight.are_tight(tight)) ++tight;
+    if (tight < batch.size) bound_coefficients(rule, batch, determinants);
+}
+
+[[gnu::flatten]] void bound_all(const DeterminantRule& rule, const JacobianBatch& batch, Determinants& determinants) {
+    bound_lanes(rule, batch, determinants);
+}
+
+#if defined(__x86_64__) && defined(__GNUC__)
+[[gnu::target("avx2"), gnu::flatten]] void bound_all_avx2(const DeterminantRule& rule, const JacobianBatch& batch,
+                                                          Determinants& determinants) {
+    bound_lanes(rule, batch, determinants);
+}
+bool has_avx2() { return __builtin_cpu_supports("avx2") != 0; }
+#else
+void bound_all_avx2(const DeterminantRule& rule, const JacobianBatch& batch, Determinants& determinants) {
+    bound_all(rule, batch, determinants);
+}
+constexpr bool has_avx2() { return false; }
+#endif
+
+// ---- halving ---------------------------------------------------------------------------------------------------------
 
 /// Coefficients of the determinant: as many as quadrilaterals of the highest order have; others leave some unused.
-using Coefficients = std::array<double, std::size_t{4} * max_cell_order * max_cell_order>;
+using Coefficients = std::array<double, most_coefficients>;
 
 /// Coefficients of the determinant on a part of the cell, each of which is within `radius` of the exact one.
 struct Part {
@@ -190,66 +413,6 @@ struct Part {
     double radius = 0;
     int halvings = 0;
 };
-
-/// The largest sizes of numbers and of their errors.
-struct Magnitude {
-    double size = 0, error = 0;
-};
-
-/// The derivatives of one coordinate, but for a factor, and how large they are.
-struct Derivatives {
-    std::array<double, std::size_t{max_cell_order + 1} * max_cell_order> along{}, across{};
-    Magnitude largest;
-};
-
-/// Coordinates count from the first node on, which makes them small.
-template <class Coordinate>
-Derivatives derivatives_of(const DeterminantRule& rule, std::span<const Point> nodes, Coordinate coordinate) {
-    const std::size_t n = rule.nodes;
-    std::array<double, nodes_of_cell(4, max_cell_order)> local{}, map{};
-    double largest = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-        local[i] = coordinate(nodes[i]) - coordinate(nodes[0]);
-        largest = std::max(largest, std::abs(local[i]));
-    }
-    // Node by node, so that the coefficients are sums side by side.
-    for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t a = 0; a < n; ++a) map[a] += rule.to_bernstein[i * n + a] * local[i];
-    Derivatives result;
-    const auto add = [&](const std::vector<Difference>& differences, auto& values) {
-        for (std::size_t i = 0; i < differences.size(); ++i) {
-            values[i] = map[differences[i].plus] - map[differences[i].minus];
-            result.largest.size = std::max(result.largest.size, std::abs(values[i]));
-        }
-    };
-    add(rule.along, result.along);
-    add(rule.across, result.across);
-    // Each of n products and sums rounds, and so has the local coordinate (Higham, section 3.1).
-    const double of_map = (static_cast<double>(n) + 2) * rounding_unit * rule.largest_row * largest;
-    result.largest.error = 2 * of_map + rounding_unit * result.largest.size;
-    return result;
-}
-
-/// Bounds the errors of the sums of products x y' - x' y, whose weights amount to 1.
-double radius_of(const DeterminantRule& rule, const Magnitude& x, const Magnitude& y) {
-    constexpr double for_rounding_of_this = 1 + 0x1p-20, for_underflow = 1e-290;
-    const double of_factors = 2 * (x.size * y.error + y.size * x.error + x.error * y.error);
-    const double of_products = 2 * x.size * y.size;  // not finite where a product is not
-    const double of_sums = of_products * (static_cast<double>(rule.terms_of_one) + 6) * rounding_unit;
-    return for_rounding_of_this * (of_factors + of_sums) + for_underflow;
-}
-
-Part whole_cell(const DeterminantRule& rule, std::span<const Point> nodes) {
-    const Derivatives x = derivatives_of(rule, nodes, [](Point p) { return p.x; });
-    const Derivatives y = derivatives_of(rule, nodes, [](Point p) { return p.y; });
-    Part part{{}, radius_of(rule, x.largest, y.largest), 0};
-    for (const ProductTerm& t : rule.terms)
-        part.coefficients[t.coefficient] +=
-            t.weight * (x.along[t.along] * y.across[t.across] - y.along[t.along] * x.across[t.across]);
-    return part;
-}
-
-// ---- halving ---------------------------------------------------------------------------------------------------------
 
 /// Halves a polynomial in one variable by de Casteljau's algorithm. Its n + 1 coefficients are at places place(k); `first`
 /// holds them, and those of the first half afterwards.
@@ -310,24 +473,10 @@ std::pair<Part, Part> halves_of(const CoefficientGrid& grid, Part first) {
     return {first, second};
 }
 
-/// Returns whether all coefficients and their errors are numbers whose sums do not overflow.
-bool is_bounded(std::span<const double> coefficients, double radius) {
-    constexpr double limit = 0x1p1022;
-    return radius < limit && std::ranges::all_of(coefficients, [](double c) { return std::abs(c) < limit; });
-}
-
-}  // namespace
-
-JacobianBounds bound_jacobian(unsigned corners, unsigned order, std::span<const Point> nodes) {
-    assert(nodes.size() == nodes_of_cell(corners, order));
-    const DeterminantRule& rule = rule_of(corners, order);
-    const auto of_part = [&](const Part& part) { return std::span(part.coefficients).first(rule.grid.size()); };
-    const auto largest_of = [&](const Part& part) { return *std::ranges::max_element(of_part(part)); };
-    constexpr double for_rounding_of_scale = 0x1p-50;
-    Part part = whole_cell(rule, nodes);
-    if (!is_bounded(of_part(part), part.radius)) return {CellVerdict::unproved, 0, HUGE_VAL};
-    const double upper = rule.scale * (largest_of(part) + part.radius);
-    const JacobianBounds bounds{.upper = upper + for_rounding_of_scale * std::abs(upper)};
+/// Returns the bounds of a cell some of whose coefficients are not above their error, by halving it.
+JacobianBounds bound_by_halving(const DeterminantRule& rule, Part part, double upper) {
+    const JacobianBounds bounds{.upper = upper};
+    const auto of_part = [&](const Part& p) { return std::span(p.coefficients).first(rule.grid.size()); };
     std::vector<Part> undecided;
     double lower = HUGE_VAL;
     for (;;) {
@@ -342,12 +491,59 @@ JacobianBounds bound_jacobian(unsigned corners, unsigned order, std::span<const 
             continue;
         }
         // What is not above its own error cannot be proved positive by any number of halvings.
-        if (part.halvings == max_halvings || !(largest_of(part) > part.radius)) return bounds;
+        if (part.halvings == max_halvings || !(*std::ranges::max_element(of_part(part)) > part.radius)) return bounds;
         const auto [first, second] = halves_of(rule.grid, part);
         undecided.push_back(first);
         part = second;
     }
     return {CellVerdict::valid, (1 - for_rounding_of_scale) * rule.scale * lower, bounds.upper};
+}
+
+/// Returns the bounds of one of the cells.
+JacobianBounds bounds_of(const DeterminantRule& rule, const Determinants& determinants, std::size_t lane) {
+    const StraightBounds& straight = determinants.straight;
+    if (straight.are_tight(lane)) return {CellVerdict::valid, straight.lower[lane], straight.upper[lane]};
+    const double radius = determinants.radius[lane], lower = determinants.smallest[lane] - radius;
+    if (!(radius < largest_number && determinants.sum[lane] < largest_number))
+        return {CellVerdict::unproved, 0, HUGE_VAL};
+    double upper = rule.scale * (determinants.largest[lane] + radius);
+    upper += for_rounding_of_scale * std::abs(upper);
+    if (lower > 0) return {CellVerdict::valid, (1 - for_rounding_of_scale) * rule.scale * lower, upper};
+    Part whole{{}, radius, 0};
+    for (std::size_t c = 0; c < rule.grid.size(); ++c) whole.coefficients[c] = determinants.coefficients[c][lane];
+    return bound_by_halving(rule, whole, upper);
+}
+
+}  // namespace
+
+void JacobianBatch::add(std::span<const Point> nodes) {
+    assert(size < capacity);
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        if (size == 0) {  // lanes of no cell are copies of the first
+            x[i] = nodes[i].x - Lanes{};
+            y[i] = nodes[i].y - Lanes{};
+        }
+        x[i][size] = nodes[i].x;
+        y[i][size] = nodes[i].y;
+    }
+    ++size;
+}
+
+std::array<JacobianBounds, JacobianBatch::capacity> bound_jacobians(unsigned corners, unsigned order,
+                                                                    const JacobianBatch& batch) {
+    const DeterminantRule& rule = rule_of(corners, order);
+    Determinants determinants;
+    (has_avx2() ? bound_all_avx2 : bound_all)(rule, batch, determinants);
+    std::array<JacobianBounds, JacobianBatch::capacity> bounds;
+    for (std::size_t lane = 0; lane < batch.size; ++lane) bounds[lane] = bounds_of(rule, determinants, lane);
+    return bounds;
+}
+
+JacobianBounds bound_jacobian(unsigned corners, unsigned order, std::span<const Point> nodes) {
+    assert(nodes.size() == nodes_of_cell(corners, order));
+    JacobianBatch batch;
+    batch.add(nodes);
+    return bound_jacobians(corners, order, batch)[0];
 }
 
 }  // namespace lamina::mesh

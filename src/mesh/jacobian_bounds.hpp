@@ -5,10 +5,15 @@
 // (2013), sections 3 and 4.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <span>
 
+#include <lamina/curved_mesh.hpp>
 #include <lamina/export.hpp>
 #include <lamina/point.hpp>
+
+#include "mesh/cell_lattice.hpp"
 
 namespace lamina::mesh {
 
@@ -32,5 +37,21 @@ struct JacobianBounds {
 /// taken as they are; a bound of all rounding errors is taken off. Precondition: as many nodes as nodes_of_cell() says, with
 /// finite coordinates.
 LAMINA_EXPORT JacobianBounds bound_jacobian(unsigned corners, unsigned order, std::span<const Point> nodes);
+
+/// The nodes of several cells of one shape and order.
+struct JacobianBatch {
+    static constexpr std::size_t capacity = 4;
+    using Lanes [[gnu::vector_size(capacity * sizeof(double))]] = double;  ///< one number per cell
+
+    std::array<Lanes, nodes_of_cell(4, max_cell_order)> x, y;  ///< coordinates, node by node
+    std::size_t size = 0;                                      ///< number of cells
+
+    /// Adds a cell. Precondition: size < capacity.
+    void add(std::span<const Point> nodes);
+};
+
+/// Does what bound_jacobian() does for each cell of a batch, all with 3 or 4 corners.
+LAMINA_EXPORT std::array<JacobianBounds, JacobianBatch::capacity> bound_jacobians(unsigned corners, unsigned order,
+                                                                                  const JacobianBatch& batch);
 
 }  // namespace lamina::mesh

@@ -47,11 +47,14 @@ CellProofs prove_cells(const MeshView& mesh, const CurvedNodes& nodes) {
     const auto blocks = core::parallel_blocks(cells.cells(), cells_per_block, [&](std::size_t begin, std::size_t end) {
         CellProofs block;
         CellNodes places;
-        for (std::size_t cell = begin; cell < end; ++cell)
-            add_proof(cell,
-                      bound_jacobian(static_cast<unsigned>(cells.corners(cell)), nodes.order,
-                                     gather_nodes(mesh, nodes, cell, places)),
-                      block);
+        for (std::size_t cell = begin; cell < end;) {
+            const std::size_t first = cell, corners = cells.corners(cell);
+            JacobianBatch batch;
+            while (cell < end && batch.size < JacobianBatch::capacity && cells.corners(cell) == corners)
+                batch.add(gather_nodes(mesh, nodes, cell++, places));
+            const auto bounds = bound_jacobians(static_cast<unsigned>(corners), nodes.order, batch);
+            for (std::size_t i = 0; i < batch.size; ++i) add_proof(first + i, bounds[i], block);
+        }
         return block;
     });
     CellProofs all;

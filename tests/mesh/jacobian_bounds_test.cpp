@@ -150,6 +150,29 @@ TEST(JacobianBounds, HoldForSamplesOfRandomCells) {
     EXPECT_EQ(verdicts[2], 0u);
 }
 
+TEST(JacobianBounds, OfSeveralCellsAreThoseOfEach) {
+    core::Random random(7);
+    for (int round = 0; round < 200; ++round)
+        for (const unsigned corners : every_shape)
+            for (unsigned p = 1; p <= max_cell_order; ++p) {
+                JacobianBatch batch;
+                std::vector<std::vector<Point>> cells;
+                const std::size_t size = 1 + random.below(JacobianBatch::capacity);
+                for (std::size_t i = 0; i < size; ++i) {
+                    cells.push_back(points_of(random_cell(corners, p, random)));
+                    if (random.below(10) == 0) cells.back()[0] = {1e200, 1e200};  // of which nothing is proved
+                    batch.add(cells.back());
+                }
+                const auto bounds = bound_jacobians(corners, p, batch);
+                for (std::size_t i = 0; i < size; ++i) {
+                    const JacobianBounds alone = bound_jacobian(corners, p, cells[i]);
+                    EXPECT_EQ(bounds[i].verdict, alone.verdict);
+                    EXPECT_EQ(bounds[i].lower, alone.lower);
+                    EXPECT_EQ(bounds[i].upper, alone.upper);
+                }
+            }
+}
+
 TEST(JacobianBounds, AgreeWithRationalArithmetic) {
     core::Random random(2);
     std::size_t valid = 0, invalid = 0;
