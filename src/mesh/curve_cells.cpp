@@ -202,8 +202,9 @@ private:
     std::uint32_t edges_ = 0;
 };
 
-/// Returns the lists of nodes of all cells and markers, without places.
-CurvedNodes number_nodes(const MeshView& mesh, const NodeNumbers& numbers, unsigned order) {
+/// Returns the lists of nodes of all cells and markers, without places. `edges` are those of all markers in a row.
+CurvedNodes number_nodes(const MeshView& mesh, const NodeNumbers& numbers, unsigned order,
+                         std::span<const std::uint32_t> edges) {
     CurvedNodes nodes;
     nodes.order = order;
     const CellEdges& cells = numbers.cells();
@@ -216,20 +217,26 @@ CurvedNodes number_nodes(const MeshView& mesh, const NodeNumbers& numbers, unsig
         for (std::size_t cell = begin; cell < end; ++cell) {
             VertexId* at = cell < triangles ? nodes.triangle_nodes.data() + cell * of_triangle
                                             : nodes.quad_nodes.data() + (cell - triangles) * of_quad;
-            for (std::size_t e = cells.first(cell); e < cells.first(cell + 1); ++e)
-                for (std::size_t k = 0; k + 1 < order; ++k)
-                    *at++ = numbers.id(numbers.of_edge(static_cast<std::uint32_t>(e), k));
+            for (std::size_t e = cells.first(cell); e < cells.first(cell + 1); ++e) {
+                const auto edge = static_cast<std::uint32_t>(e);
+                const bool is_owner = numbers.is_owner(edge);
+                std::size_t node = numbers.of_edge(edge, 0);
+                for (std::size_t k = 0; k + 1 < order; ++k) *at++ = numbers.id(is_owner ? node++ : node--);
+            }
             const std::size_t first = numbers.first_of_cell(cell), within = numbers.within_cell(cell);
             for (std::size_t i = 0; i < within; ++i) *at++ = numbers.id(first + i);
         }
     });
-    std::vector<Segment> edges;
-    for (const Marker& marker : mesh.markers) edges.insert(edges.end(), marker.edges.begin(), marker.edges.end());
-    const std::vector<std::uint32_t> found = find_edges(mesh, edges);
-    for (std::size_t i = 0; i < edges.size(); ++i)
-        for (std::size_t k = 0; k + 1 < order; ++k)
-            nodes.marker_nodes.push_back(
-                numbers.id(numbers.of_edge(found[i], cells.origin(found[i]) == edges[i].a ? k : order - 2 - k)));
+    std::size_t first = 0;
+    for (const Marker& marker : mesh.markers) {
+        for (std::size_t i = 0; i < marker.edges.size(); ++i)
+            for (std::size_t k = 0; k + 1 < order; ++k) {
+                const std::uint32_t edge = edges[first + i];
+                const bool is_along = cells.origin(edge) == marker.edges[i].a;
+                nodes.marker_nodes.push_back(numbers.id(numbers.of_edge(edge, is_along ? k : order - 2 - k)));
+            }
+        first += marker.edges.size();
+    }
     return nodes;
 }
 
@@ -398,17 +405,21 @@ double distance_from_curve(const MeshView& mesh, const WallCurve& wall, const Be
     return largest;
 }
 
-/// Follows the column over each wall and bends it by the wall's curve.
-std::vector<BentColumn> bent_columns(const MeshView& mesh, const Adjacency& adjacency, unsigned order,
-                                     std::span<const WallCurve> walls, const CellColumnNumbers& numbers) {
-    const ColumnSearch search(mesh, adjacency, numbers);
+/// Returns the directed edges of walls, and then those of all markers in a row.
+std::vector<std::uint32_t> edges_of_boundary(const MeshView& mesh, std::span<const WallCurve> walls) {
     std::vector<Segment> edges;
     for (const WallCurve& wall : walls) edges.push_back(wall.edge);
-    const std::vector<std::uint32_t> found = find_edges(mesh, edges);
+    for (const Marker& marker : mesh.markers) edges.insert(edges.end(), marker.edges.begin(), marker.edges.end());
+    return find_edges(mesh, edges);
+}
+
+/// Follows the column over each wall, whose directed edge is known, and bends it by the wall's curve.
+std::vector<BentColumn> bent_columns(const MeshView& mesh, const ColumnSearch& search, unsigned order,
+                                     std::span<const WallCurve> walls, std::span<const std::uint32_t> edges) {
     std::vector<BentColumn> columns(walls.size());
     core::parallel_for(walls.size(), 64, [&](std::size_t begin, std::size_t end) {
         for (std::size_t w = begin; w < end; ++w) {
-            columns[w] = search.follow(found[w]);
+            columns[w] = search.follow(edges[w]);
             set_bend(columns[w], mesh, walls[w], order, 1);
         }
     });
@@ -453,9 +464,11 @@ CurvedCells curve_cells(const MeshView& mesh, unsigned order, std::span<const Wa
                         const CellColumnNumbers& numbers_of_columns) {
     constexpr int max_halvings_of_bend = 6;  // docs/decisions/0012
     const Adjacency adjacency = find_adjacency(mesh);
-    std::vector<BentColumn> columns = bent_columns(mesh, adjacency, order, walls, numbers_of_columns);
+    const std::vector<std::uint32_t> edges = edges_of_boundary(mesh, walls);
+    const ColumnSearch search(mesh, adjacency, numbers_of_columns);
+    std::vector<BentColumn> columns = bent_columns(mesh, search, order, walls, std::span(edges).first(walls.size()));
     const NodeNumbers numbers(mesh, adjacency, order);
-    CurvedCells curved{number_nodes(mesh, numbers, order), {}, {}};
+    CurvedCells curved{number_nodes(mesh, numbers, order, std::span(edges).subspan(walls.size())), {}, {}};
     const NodePlacer placer(mesh, numbers, adjacency, columns, order);
     std::vector<int> halvings(walls.size());
     for (;;) {
