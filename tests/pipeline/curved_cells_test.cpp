@@ -289,6 +289,20 @@ TEST(CurvedCells, FollowWallsThatAreDividedAfterwards) {
         }
 }
 
+TEST(CurvedCells, OfCoarseWallsFollowThemInThinLayers) {
+    // Edges bend by more than the layers are high, whose outer border is divided above.
+    for (const LayerTopology topology : {LayerTopology::quads, LayerTopology::layered})
+        for (unsigned order = 2; order <= max_cell_order; ++order) {
+            CaseOptions options = curved_options(order, topology);
+            options.layer.layers = 5;
+            options.surface = {.treatment = SurfaceTreatment::keep, .curve_kept = true};
+            const MeshResult result = mesh_of({ellipse(0.4, 24)}, options);
+            expect_proved(result, order);
+            EXPECT_EQ(result.curving.curved_edges, wall_edges(result.mesh));
+            EXPECT_EQ(result.curving.reduced_edges, 0u);
+        }
+}
+
 TEST(CurvedCells, OfHalfSectionsHaveNoEdgesBelowTheSymmetry) {
     CaseOptions options = curved_options(2);
     options.far_field.symmetry = 0.0;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/angles.hpp"
+#include "core/segments.hpp"
 #include "layers/directions/leans.hpp"
 #include "layers/mechanisms.hpp"
 #include "layers/parameters.hpp"
@@ -101,22 +102,42 @@ void add_vertex_rays(const RayVertex& at, const WallVertex& vertex, double max_a
     if (at.foot) turn_to_line(*at.foot, max_angle, std::span(rays).last(parts + 1));
 }
 
-/// Adds the rays between two others that differ by more than the largest angle, evenly spaced on the wall. Corners of
-/// jagged outlines are so many, and their edges so short, that neighbouring edges would differ by whole factors
-/// (docs/layer.md). Rays are added there only where a column opens widely, none where rays converge.
-void add_refining_rays(const RayLine& first, const RayLine& last, double max_angle, const OutlineRules& rules,
-                       const PlaceOnWall& place, std::vector<RayLine>& rays) {
+/// What decides on the rays between two vertices of a wall.
+struct Refinement {
+    double max_angle;  ///< between neighbouring rays
+    const OutlineRules& rules;
+    const PlaceOnWall& place;
+    double height;  ///< of the layers between the vertices; infinite where it is not known yet
+};
+
+/// Returns into how many parts the curve of an edge must be divided for each to bend by no more than a share of the layers'
+/// height: cells of higher order follow it, and where the border divides their tops, the bend fades out below.
+std::size_t parts_of_curve(Point from, Point to, const Refinement& refinement) {
+    constexpr double max_bend = 0.25;  // of the height; the determinants of cells then change by about as much
+    const std::optional<Point> middle = refinement.place ? refinement.place(from, to, 0.5) : std::nullopt;
+    if (!middle || refinement.height <= 0) return 1;
+    // Parts of an arc bend by the square of their share of it.
+    const double bend = core::distance_to_segment(*middle, from, to) / (max_bend * refinement.height);
+    return std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(std::sqrt(bend) - part_slack)));
+}
+
+/// Adds the rays between two others that differ by more than the largest angle, or whose wall bends, evenly spaced on the
+/// wall. Corners of jagged outlines are so many, and their edges so short, that neighbouring edges would differ by whole
+/// factors (docs/layer.md). Rays are added there only where a column opens widely, none where rays converge.
+void add_refining_rays(const RayLine& first, const RayLine& last, const Refinement& refinement,
+                       std::vector<RayLine>& rays) {
     const Point from = first.origin, to = last.origin, normal = -perpendicular(unit(to - from));
     // Rays stay within 90 degrees of the edge's normal, so that the difference of the two angles needs no wrapping.
     const double first_angle = core::angle_between(normal, first.direction),
                  last_angle = core::angle_between(normal, last.direction);
-    if (!rules.refine_converging && last_angle <= first_angle) return;
-    const std::size_t parts = angle_parts(last_angle - first_angle, max_angle);
+    const bool is_refined = refinement.rules.refine_converging || last_angle > first_angle;
+    const std::size_t parts = std::max(is_refined ? angle_parts(last_angle - first_angle, refinement.max_angle) : 1,
+                                       parts_of_curve(from, to, refinement));
     for (std::size_t k = 1; k < parts; ++k) {
         const double part = static_cast<double>(k), whole = static_cast<double>(parts), rest = whole - part;
         const auto between = [&](double a, double b) { return (rest * a + part * b) / whole; };
         Point origin{between(from.x, to.x), between(from.y, to.y)};
-        if (place) origin = place(from, to, part / whole).value_or(origin);
+        if (refinement.place) origin = refinement.place(from, to, part / whole).value_or(origin);
         // The edge may be too short to be divided in floating point.
         if (origin == rays.back().origin || origin == to || origin == from) continue;
         rays.push_back({.origin = origin,
@@ -149,7 +170,8 @@ std::vector<RayLine> make_rays(std::span<const RayVertex> outline, OutlineKind k
         const RayLine after{.origin = outline[next].at,
                             .direction = first_direction(vertices[next]),
                             .least_height = outline[next].least_height};
-        add_refining_rays(RayLine(rays.back()), after, most_opening(kind, options), rules, place, rays);
+        const double height = heights.empty() ? HUGE_VAL : std::min(heights[i], heights[next]);
+        add_refining_rays(RayLine(rays.back()), after, {most_opening(kind, options), rules, place, height}, rays);
     }
     return rays;
 }
