@@ -202,6 +202,19 @@ private:
     std::uint32_t edges_ = 0;
 };
 
+/// Puts the numbers of the nodes of a cell beside its corners at a place of a list.
+void list_nodes(const NodeNumbers& numbers, std::size_t cell, unsigned order, VertexId* at) {
+    const CellEdges& cells = numbers.cells();
+    for (std::size_t e = cells.first(cell); e < cells.first(cell + 1); ++e) {
+        const auto edge = static_cast<std::uint32_t>(e);
+        const bool is_owner = numbers.is_owner(edge);
+        std::size_t node = numbers.of_edge(edge, 0);
+        for (std::size_t k = 0; k + 1 < order; ++k) *at++ = numbers.id(is_owner ? node++ : node--);
+    }
+    const std::size_t first = numbers.first_of_cell(cell), within = numbers.within_cell(cell);
+    for (std::size_t i = 0; i < within; ++i) *at++ = numbers.id(first + i);
+}
+
 /// Returns the lists of nodes of all cells and markers, without places. `edges` are those of all markers in a row.
 CurvedNodes number_nodes(const MeshView& mesh, const NodeNumbers& numbers, unsigned order,
                          std::span<const std::uint32_t> edges) {
@@ -214,29 +227,19 @@ CurvedNodes number_nodes(const MeshView& mesh, const NodeNumbers& numbers, unsig
     nodes.triangle_nodes.resize(triangles * of_triangle);
     nodes.quad_nodes.resize(mesh.quads.size() * of_quad);
     core::parallel_for(cells.cells(), cells_per_block, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t cell = begin; cell < end; ++cell) {
-            VertexId* at = cell < triangles ? nodes.triangle_nodes.data() + cell * of_triangle
-                                            : nodes.quad_nodes.data() + (cell - triangles) * of_quad;
-            for (std::size_t e = cells.first(cell); e < cells.first(cell + 1); ++e) {
-                const auto edge = static_cast<std::uint32_t>(e);
-                const bool is_owner = numbers.is_owner(edge);
-                std::size_t node = numbers.of_edge(edge, 0);
-                for (std::size_t k = 0; k + 1 < order; ++k) *at++ = numbers.id(is_owner ? node++ : node--);
-            }
-            const std::size_t first = numbers.first_of_cell(cell), within = numbers.within_cell(cell);
-            for (std::size_t i = 0; i < within; ++i) *at++ = numbers.id(first + i);
-        }
+        for (std::size_t cell = begin; cell < end; ++cell)
+            list_nodes(numbers, cell, order,
+                       cell < triangles ? nodes.triangle_nodes.data() + cell * of_triangle
+                                        : nodes.quad_nodes.data() + (cell - triangles) * of_quad);
     });
-    std::size_t first = 0;
-    for (const Marker& marker : mesh.markers) {
-        for (std::size_t i = 0; i < marker.edges.size(); ++i)
-            for (std::size_t k = 0; k + 1 < order; ++k) {
-                const std::uint32_t edge = edges[first + i];
-                const bool is_along = cells.origin(edge) == marker.edges[i].a;
-                nodes.marker_nodes.push_back(numbers.id(numbers.of_edge(edge, is_along ? k : order - 2 - k)));
-            }
-        first += marker.edges.size();
-    }
+    auto edge = edges.begin();
+    for (const Marker& marker : mesh.markers)
+        for (const Segment& segment : marker.edges) {
+            const bool is_along = cells.origin(*edge) == segment.a;
+            for (std::size_t k = 0; k + 1 < order; ++k)
+                nodes.marker_nodes.push_back(numbers.id(numbers.of_edge(*edge, is_along ? k : order - 2 - k)));
+            ++edge;
+        }
     return nodes;
 }
 
