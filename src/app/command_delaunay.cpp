@@ -10,18 +10,16 @@
 #include <lamina/delaunay.hpp>
 #include <lamina/error.hpp>
 #include <lamina/files.hpp>
-#include <lamina/mesh.hpp>
 #include <lamina/pipeline.hpp>
 #include <lamina/predicates.hpp>
 #include <lamina/threads.hpp>
 #include <lamina/triangle_files.hpp>
-#include <lamina/version.hpp>
 
 #include "app/commands.hpp"
+#include "app/delaunay_report.hpp"
 #include "app/delaunay_run.hpp"
 #include "app/options.hpp"
 #include "app/progress.hpp"
-#include "app/report.hpp"
 #include "app/run_files.hpp"
 #include "app/standard_output.hpp"
 #include "app/stopwatch.hpp"
@@ -42,15 +40,6 @@ struct DelaunayArguments {
     std::string report;
     bool quiet = false, strict = false;
     DelaunaySettings settings;  ///< the flags
-};
-
-/// The facts about a run that only the command knows.
-struct DelaunayRunFacts {
-    fs::path stem;
-    bool with_poly = false;
-    unsigned threads = 0;
-    double smallest_angle_deg = 0;
-    double read_seconds = 0, write_seconds = 0, total_seconds = 0;
 };
 
 /// Returns the stem of the output files: FILE.1 where none is given.
@@ -110,74 +99,6 @@ CaseOptions case_options_of(const DelaunayArguments& arguments) {
     return options;
 }
 
-Json thread_seconds_report(const std::vector<TriangulationThread>& threads) {
-    Json report = {{"decomposition", Json::array()}, {"triangulation", Json::array()}};
-    for (const TriangulationThread& thread : threads) {
-        report["decomposition"].push_back({{"busy", thread.cutting}});
-        report["triangulation"].push_back({{"busy", thread.triangulating}, {"idle", thread.idle}});
-    }
-    return report;
-}
-
-std::string hash_of(const TriangleOutput& output) {
-    Mesh mesh;
-    mesh.points = output.points;
-    mesh.triangles = output.triangles;
-    return mesh_hash(mesh);
-}
-
-Json delaunay_report(const DelaunayResult& result, const DelaunayRunFacts& facts) {
-    Json report = {{"version", LAMINA_VERSION},
-                   {"threads", facts.threads == 0 ? thread_count() : facts.threads},
-                   {"vertices", result.output.points.size()},
-                   {"triangles", result.output.triangles.size()},
-                   {"min_angle_deg", facts.smallest_angle_deg},
-                   {"angles_below_bound", result.refinement.below_bound},
-                   {"angles_exempt", result.refinement.exempt},
-                   {"oversized", result.refinement.oversized},
-                   {"refused_points", result.refinement.refused},
-                   {"warnings", warnings_report(result.warnings)},
-                   {"estimate", estimate_report(result.estimate)},
-                   {"merged_points", result.merged_points},
-                   {"dropped_triangles", result.dropped_triangles},
-                   {"zero_length_segments", result.zero_length_segments},
-                   {"repeated_segments", result.repeated_segments},
-                   {"seconds",
-                    {{"read", facts.read_seconds},
-                     {"triangulation", result.triangulation_seconds},
-                     {"refinement", result.refinement_seconds},
-                     {"write", facts.write_seconds},
-                     {"total", facts.total_seconds}}},
-                   {"hash", hash_of(result.output)}};
-    if (result.decomposition) {
-        report["decomposition"] = decomposition_report(*result.decomposition);
-        report["thread_seconds"] = thread_seconds_report(result.threads);
-    }
-    return report;
-}
-
-std::string delaunay_summary(const DelaunayResult& result, const DelaunayRunFacts& facts) {
-    const RefineStats& stats = result.refinement;
-    std::string text = fmt::format("{}.node, .ele{}: {} vertices, {} triangles, smallest angle {:.2f} degrees\n",
-                                   facts.stem.string(), facts.with_poly ? ", .poly" : "", result.output.points.size(),
-                                   result.output.triangles.size(), facts.smallest_angle_deg);
-    if (stats.below_bound > 0)
-        text += fmt::format(
-            "  {} triangles have an angle below the bound ({} of them in sharp corners of the input, or between "
-            "segments that nearly coincide, where no triangulation of few triangles can keep it)\n",
-            stats.below_bound, stats.exempt);
-    if (result.merged_points > 0)
-        text += fmt::format("  {} points were merged with earlier ones; no triangle has them\n", result.merged_points);
-    if (result.dropped_triangles > 0)
-        text += fmt::format("  {} flat triangles at the hull were dropped\n", result.dropped_triangles);
-    if (result.zero_length_segments > 0)
-        text += fmt::format("  {} segments from a vertex to itself were left out\n", result.zero_length_segments);
-    if (result.repeated_segments > 0)
-        text += fmt::format("  {} segments lie on earlier ones and change nothing\n", result.repeated_segments);
-    if (stats.oversized > 0) text += fmt::format("  {} triangles are larger than asked for\n", stats.oversized);
-    return text;
-}
-
 /// Returns why a word after --merge is no distance; empty if it is one.
 std::string require_merge_distance(const std::string& word) {
     if (word.empty() || word == "true") return {};
@@ -220,7 +141,7 @@ void run(const DelaunayArguments& arguments) {
     facts.smallest_angle_deg = smallest_angle_deg(result.output.points, result.output.triangles);
     facts.total_seconds = total.lap();
 
-    if (!arguments.report.empty()) write_file(arguments.report, to_text(delaunay_report(result, facts)));
+    if (!arguments.report.empty()) write_file(arguments.report, delaunay_report(result, facts));
     if (!arguments.quiet) print_summary(delaunay_summary(result, facts), outputs);
     require_no_warnings(result.warnings, arguments.strict);
 }

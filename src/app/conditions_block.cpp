@@ -8,7 +8,6 @@
 
 #include "app/options.hpp"
 #include "app/summary.hpp"
-#include "app/table_option.hpp"
 
 namespace lamina::app {
 

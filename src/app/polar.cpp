@@ -9,6 +9,7 @@
 
 #include "app/adapt_page.hpp"
 #include "app/flow_run.hpp"
+#include "app/report.hpp"
 
 namespace lamina::app {
 
@@ -166,6 +167,9 @@ std::string polar_csv(std::span<const PolarRow> rows) {
     return text;
 }
 
+namespace {
+
+/// Returns the rows with their states as JSON.
 Json polar_json(const PolarConditions& conditions, std::span<const PolarRow> rows) {
     Json list = Json::array();
     for (const PolarRow& row : rows)
@@ -186,6 +190,8 @@ Json polar_json(const PolarConditions& conditions, std::span<const PolarRow> row
             {"undisplaced", conditions.undisplaced},
             {"rows", list}};
 }
+
+}  // namespace
 
 std::string polar_of_xfoil(const PolarConditions& conditions, std::span<const PolarRow> rows) {
     const TransitionOptions transition = conditions.transition.value_or(TransitionOptions{.critical_exponent = 0});

@@ -11,8 +11,6 @@
 #include <lamina/geometry.hpp>
 #include <lamina/pipeline.hpp>
 
-#include "app/report.hpp"
-
 namespace lamina::app {
 
 /// The forces at one angle of attack, and what can be said of them. Numbers that nobody has found are empty.
@@ -53,8 +51,6 @@ FlowPolar flow_polar(Geometry geometry, const CaseOptions& options, const Transi
 std::string polar_summary(const PolarConditions& conditions, std::span<const PolarRow> rows);
 /// Returns the rows with their states as CSV.
 std::string polar_csv(std::span<const PolarRow> rows);
-/// Returns the rows with their states as JSON.
-Json polar_json(const PolarConditions& conditions, std::span<const PolarRow> rows);
 /// Returns the polar in the format of XFOIL 6.99 (PACC), which has no states: rows that are not steady, and those of
 /// which a number is not known, are left out.
 std::string polar_of_xfoil(const PolarConditions& conditions, std::span<const PolarRow> rows);
