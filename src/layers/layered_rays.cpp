@@ -114,11 +114,12 @@ void fit_and_count_layers(Rays& rays) {
     rays.lower_to_copies(rays.limits);
     rays.front = front_heights(rays);
     rays.heights = columns_up_to(rays.set, rays.growth, rays.asked, rays.front);
-    rays.counts = layer_counts(rays.set, rays.heights);
-    for (std::vector<std::uint32_t> before; rays.copies > 0 && before != rays.counts;) {
-        before = rays.counts;
+    rays.counts.resize(rays.set.lines.size());
+    for (std::size_t i = 0; i < rays.counts.size(); ++i) rays.counts[i] = rays.heights.column(i).layers;
+    for (std::vector<std::uint32_t> before; before != rays.counts;) {
+        before = layer_counts(rays.set, rays.heights, rays.counts);
+        rays.counts = before;
         rays.lower_to_copies(rays.counts);
-        if (rays.counts != before) rays.counts = layer_counts(rays.set, rays.heights, std::move(rays.counts));
     }
     fit_end_spacings(rays);
 }

@@ -256,13 +256,6 @@ private:
 
 }  // namespace
 
-std::vector<std::uint32_t> layer_counts(const RaySet& set, const LayerHeights& heights) {
-    std::vector<std::uint32_t> counts;
-    counts.reserve(set.lines.size());
-    for (std::size_t i = 0; i < set.lines.size(); ++i) counts.push_back(heights.column(i).layers);
-    return layer_counts(set, heights, std::move(counts));
-}
-
 std::vector<std::uint32_t> layer_counts(const RaySet& set, const LayerHeights& heights,
                                         std::vector<std::uint32_t> counts) {
     return CountLowering(set, heights, std::move(counts)).run();
