@@ -56,7 +56,8 @@ public:
 std::unique_ptr<MeshLayout> su2_layout(const std::filesystem::path& file);
 std::unique_ptr<MeshLayout> vtu_layout(const std::filesystem::path& file);
 
-/// Opens a sink that collects each section in a temporary file. It leaves internal markers out unless the format has them.
+/// Opens a sink that collects each section in a temporary file. It leaves internal markers out unless the format has
+/// them.
 std::unique_ptr<MeshSink> open_layout_sink(std::unique_ptr<MeshLayout> layout, const std::filesystem::path& file,
                                            bool has_internal_markers);
 

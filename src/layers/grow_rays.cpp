@@ -102,8 +102,8 @@ RayLine image_of_ray(const RayLine& ray, const RayLine& before, double y) {
 }
 
 /// Makes the rays of a body with a line of symmetry images of each other. Those that stand where the line meets the body,
-/// the first one and the last one above, lie in the line. Rays of a wake along the line come first, from its end on. Returns
-/// how many rays are not below it.
+/// the first one and the last one above, lie in the line. Rays of a wake along the line come first, from its end on.
+/// Returns how many rays are not below it.
 std::size_t mirror_rays(const Element& element, double y, std::vector<RayLine>& rays) {
     constexpr double rounding = 1e-6;  // a ray of a fan that rises less lies in the line
     const Point tail = element.points.front();

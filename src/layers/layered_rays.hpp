@@ -85,8 +85,8 @@ struct LayeredRays {
 /// Returns the rays with their columns.
 LayeredRays layered_rays(const Rays& rays);
 
-/// Finds anew what is asked for on each ray, what is in its way, and the front. Rays that begin where obstacles touch the
-/// walls have no room unless they run along them.
+/// Finds anew what is asked for on each ray, what is in its way, and the front. Rays that begin where obstacles touch
+/// the walls have no room unless they run along them.
 void measure_room(Rays& rays, const Obstacles& obstacles);
 
 /// Returns the front: the largest heights along the rays, at most those asked for and the limits, that rise along it by no

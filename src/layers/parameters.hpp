@@ -59,8 +59,8 @@ inline constexpr double most_fan_lean_deg = 25, most_given_share = 0.3;
 /// the largest angle from the normals of both edges: cells in all rows at the wall are as skewed as that.
 inline constexpr double most_lean_deg = 45, most_lean_from_normals_deg = 57;
 
-/// Rays along lines that end on a wall lean from the normals of its edges by this angle at most, in degrees: the line has that
-/// angle with the wall whatever rays do. Where it leans farther there is no ray.
+/// Rays along lines that end on a wall lean from the normals of its edges by this angle at most, in degrees: the line
+/// has that angle with the wall whatever rays do. Where it leans farther there is no ray.
 inline constexpr double most_lean_of_line_deg = 75;
 
 /// Cells have no larger angles than this, in degrees, where anything can be done about it: columns end below them, and clefts that

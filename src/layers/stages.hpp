@@ -175,8 +175,8 @@ struct OuterWall {
     double thickest = HUGE_VAL;  ///< of its layers up to isotropy, in units of the input
 };
 
-/// Where a line inside the domain ends at a vertex of a wall. The ray there runs along the line, whose edges become edges of
-/// cells of the layer.
+/// Where a line inside the domain ends at a vertex of a wall. The ray there runs along the line, whose edges become
+/// edges of cells of the layer.
 struct LineFoot {
     Point at;         ///< the vertex
     Point direction;  ///< of the line, away from the wall; a unit vector
@@ -186,8 +186,8 @@ struct LineFoot {
 /// Lines and outlines inside the domain that rays must not reach. They have no layers themselves.
 struct Obstacles {
     std::vector<std::vector<Point>> outlines;  ///< simple and counter-clockwise, or the two ends of a line
-    /// One at most for each vertex. At corners with fans, and where the line leans too far, the ray does not run along the
-    /// line, and has no layers.
+    /// One at most for each vertex. Where the line leans too far, or lies beside a fan, no ray runs along it, and those
+    /// of the vertex have no layers.
     std::vector<LineFoot> feet{};
     std::vector<Point> bare{};  ///< other vertices of walls at which rays have no layers
 };

@@ -84,8 +84,8 @@ struct OuterWallSizes {
     }
 };
 
-/// Returns how long edges of outer walls may be, so that the last cells of layers that end at their largest thickness are not
-/// far wider than high.
+/// Returns how long edges of outer walls may be, so that the last cells of layers that end at their largest thickness
+/// are not far wider than high.
 double largest_outer_edge(std::span<const OuterWallFacts> walls, const LayerRequest& layer) {
     constexpr double edge_over_thickness = 0.75;
     double largest = HUGE_VAL;
@@ -121,8 +121,8 @@ FittedLayer grow_within(const DomainRequest& domain, const LayerRequest& layer, 
                                               geometry::shifts_in_row(geometry)),
                                  on_curve);
     };
-    // Above the layer at their feet, which is known once rays have grown, lines are in the way. Edges of rays may be no edges of
-    // Delaunay layers.
+    // Above the layer at their feet, which is known once rays have grown, lines are in the way. Edges of rays may be no
+    // edges of Delaunay layers.
     std::vector<double> at_feet(lines.points.size());
     if (layer.options.enabled && layer.options.topology != LayerTopology::delaunay) {
         at_feet = room_at_feet(lines);

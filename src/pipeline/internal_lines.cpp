@@ -469,8 +469,8 @@ std::vector<SizeSource> sizes_along(std::span<const InternalLine> lines) {
 
 namespace {
 
-/// Adds a line and its image in a line of symmetry as obstacles. It stops short of its ends, by a gap on a border. Rays in the
-/// line of symmetry must not pass between both where the line ends there:
+/// Adds a line and its image in a line of symmetry as obstacles. It stops short of its ends, by a gap on a border. Rays
+/// in the line of symmetry must not pass between both where the line ends there:
 ///
 ///        /       the line goes on beyond y by a gap,
 ///     --/------  y

@@ -26,8 +26,9 @@ double first_height_of(const std::optional<OuterLayers>& layers, const char* opt
     return layers::first_height_for(std::get<YPlus>(*layers).y_plus, *conditions.reynolds, conditions.chord);
 }
 
-/// Returns how thick layers on walls of the domain may be: so many times as thick as the turbulent boundary layer of a flat plate
-/// as long as the domain at its end, 0.37 x Re_x^(-1/5) (H. Schlichting, Boundary-Layer Theory, 21.1). None is thicker there.
+/// Returns how thick layers on walls of the domain may be: so many times as thick as the turbulent boundary layer of a
+/// flat plate as long as the domain at its end, 0.37 x Re_x^(-1/5) (H. Schlichting, Boundary-Layer Theory, 21.1). None
+/// is thicker there.
 double thickest_layer_of_domain(double length, const ReferenceConditions& conditions) {
     constexpr double reynolds_if_unknown = 1e6, boundary_layers = 2;
     const double reynolds = conditions.reynolds.value_or(reynolds_if_unknown) * length / conditions.chord;

@@ -175,8 +175,8 @@ private:
             LayerCore& placed =
                 layer_.cores.emplace_back(LayerCore{core.element, {base_of_element_[core.element]}, core.stations});
             placed.chains.resize(core.chains.size());
-            // Vertex k of the wake is the origin of ray out + k and of ray back - k; of the latter alone where half of it is
-            // above a line of symmetry, on which chains begin then.
+            // Vertex k of the wake is the origin of ray out + k and of ray back - k; of the latter alone where half of
+            // it is above a line of symmetry, on which chains begin then.
             const bool is_half = rays_.is_open(core.element);
             std::size_t back = set_.begin[core.element + 1] - 1;
             if (is_half)
@@ -486,10 +486,14 @@ WallPart wall_below(const Rays& rays, const std::vector<FrontCorner>& corners, s
     return {a, b, (wall + distance(from, b)) / static_cast<double>(ray.corner_after.size() + 1)};
 }
 
-/// Returns whether an edge of a front lies above an edge of the wall, rather than of a wake.
-bool is_above_wall(const Rays& rays, const std::vector<FrontCorner>& corners, std::size_t k) {
-    const auto place = [&](std::size_t corner) { return rays.set.lines[corners[corner % corners.size()].ray].place; };
-    return place(k) == RayPlace::wall && place(k + 1) == RayPlace::wall;
+/// Returns whether an edge of a front lies above an edge of the wall, rather than of a wake, and would become shorter
+/// where the wall becomes finer. Beside lines it is as long as their lean makes it.
+bool follows_wall(const Rays& rays, const std::vector<FrontCorner>& corners, std::size_t k) {
+    const auto follows = [&](std::size_t corner) {
+        const RayLine& ray = rays.set.lines[corners[corner % corners.size()].ray];
+        return ray.place == RayPlace::wall && ray.line_room == 0;
+    };
+    return follows(k) && follows(k + 1);
 }
 
 }  // namespace
@@ -510,7 +514,7 @@ std::vector<geometry::WallSpacing> wall_spacings(const Rays& rays, const BorderO
         if (!rays.resampled[e]) continue;
         const std::size_t shown = corners_in_domain(rays, e, corners[e]) - rays.is_open(e);
         for (std::size_t k = 0; k < shown; ++k) {
-            if (corners[e][k].cleft || !is_above_wall(rays, corners[e], k)) continue;
+            if (corners[e][k].cleft || !follows_wall(rays, corners[e], k)) continue;
             const WallPart wall = wall_below(rays, corners[e], k);
             const double excess = division.excess[e][k] / alike;
             if (wall.a != wall.b && excess > 1)

@@ -169,8 +169,8 @@ ChainLeans minimise_leans(std::span<const ColumnLack> lacks, std::span<const Lea
 
 namespace {
 
-/// Returns the largest lean that lines ask of rays beside them, which otherwise meet those along the lines: that of a line, but no
-/// more than slants allow.
+/// Returns the largest lean that lines ask of rays beside them, which otherwise meet those along the lines: that of a
+/// line, but no more than slants allow.
 double lean_beside_lines(std::span<const WallVertex> vertices) {
     double most = 0;
     for (const WallVertex& vertex : vertices) most = std::max(most, std::abs(vertex.lean_of_line.value_or(0)));

@@ -67,7 +67,8 @@ Point last_direction(const WallVertex& v) { return leaning(v.fan ? v.normal_afte
 /// Returns half of the angle between the first and the last ray of a fan, in radians.
 double half_fan(const WallVertex& v) { return 0.5 * (v.turning + v.lean[1] - v.lean[0]); }
 
-/// Turns the ray between the first and the last one of a fan that is nearest to a line into it, if the line is in the fan.
+/// Turns the ray between the first and the last one of a fan that is nearest to a line into it, if the line is in the
+/// fan.
 void turn_to_line(const LineFoot& foot, double max_angle, std::span<RayLine> fan) {
     if (fan.size() < 3) return;
     const auto away = [&](const RayLine& ray) { return std::abs(core::angle_between(ray.direction, foot.direction)); };
@@ -167,6 +168,8 @@ std::vector<RayLine> make_rays(std::span<const RayVertex> outline, OutlineKind k
         rays.back().corner_after = outline[i].corner_after;
         if (!outline[i].corner_after.empty()) continue;
         if (options.equal_fans || outline[i].place != RayPlace::wall || outline[next].place != RayPlace::wall) continue;
+        // Columns beside a line open by its lean, on edges however short: rays would ask for a finer wall, and so on.
+        if (vertices[i].lean_of_line || vertices[next].lean_of_line) continue;
         const RayLine after{.origin = outline[next].at,
                             .direction = first_direction(vertices[next]),
                             .least_height = outline[next].least_height};

@@ -69,8 +69,8 @@ bool shorten_bare_wakes(const RaySet& set, std::span<const std::uint32_t> counts
 WakeCore make_core(std::size_t element, std::span<const Point> base, Point end, double edge, double ratio,
                    const LayerGrowth& growth);
 
-/// Keeps the half of a core on the left of a line of symmetry at this y, on which its chains then begin. Precondition: the
-/// line halves it.
+/// Keeps the half of a core on the left of a line of symmetry at this y, on which its chains then begin. Precondition:
+/// the line halves it.
 void keep_left_half(double y, WakeCore& core);
 
 }  // namespace lamina::layers
