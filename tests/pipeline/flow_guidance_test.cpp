@@ -154,6 +154,16 @@ TEST(FlowGuidance, FirstCellsHaveTheHeightsOfTheirElements) {
     }
 }
 
+/// The ray of the trailing edge leans, between the wall and the wake.
+TEST(FlowGuidance, FirstHeightsHoldAtTrailingEdgesBeforeWakes) {
+    CaseOptions options = guided_options(1e5, 0);
+    options.layer.wake_layers = true;
+    for (const char* const section : {"naca:0015:100", "naca:4415:100"}) {
+        const MeshResult result = generate_mesh(std::vector<std::string>{section}, options);
+        EXPECT_EQ(result.check.walls.share_of_kept_heights, 1) << section;
+    }
+}
+
 TEST(FlowGuidance, AGivenFirstHeightHoldsForAllElements) {
     CaseOptions options = guided_options(3e6, 6);
     options.layer.first_height = 2e-5;

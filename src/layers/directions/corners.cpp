@@ -186,8 +186,7 @@ void shift_rays_of_corners(const LayerGrowth& growth, RaySet& set) {
         while (i == set.begin[element + 1]) ++element;
         RayLine& ray = set.lines[i];
         const RayLine &before = set.lines[neighbours.previous[i]], &after = set.lines[neighbours.next[i]];
-        const auto on_wall = [](const RayLine& line) { return line.place == RayPlace::wall; };
-        if (!on_wall(before) || !on_wall(ray) || !on_wall(after)) continue;
+        if (ray.place != RayPlace::wall) continue;
         if (before.origin == ray.origin || after.origin == ray.origin) continue;  // a ray of a fan
         const double above = ray.opening * growth.first_height_on(element), along = ray.slant * above;
         ray.shift = shift_at_corner(before, ray, after, along, above);
