@@ -34,7 +34,7 @@ void for_each_corner(Mesh& mesh, F&& f) {
 void orient_curved_markers(CurvedMesh& curved) {
     const std::vector<Marker> before = curved.mesh.markers;
     orient_markers(curved.mesh);
-    const std::ptrdiff_t of_edge = std::ptrdiff_t{curved.nodes.order} - 1;
+    const std::ptrdiff_t of_edge = static_cast<std::ptrdiff_t>(curved.nodes.order) - 1;
     auto nodes = curved.nodes.marker_nodes.begin();
     for (std::size_t m = 0; m < before.size(); ++m)
         for (std::size_t i = 0; i < before[m].edges.size(); ++i, nodes += of_edge)
@@ -90,7 +90,7 @@ std::vector<std::size_t> vtk_order_of_quad(unsigned order) {
     const std::span<const mesh::LatticePlace> lattice = mesh::lattice_of_cell(4, order);
     std::vector<std::size_t> places(lattice.size());
     std::iota(places.begin(), places.end(), std::size_t{0});
-    const std::ptrdiff_t between = std::ptrdiff_t{order} - 1;  // nodes of an edge beside its ends
+    const std::ptrdiff_t between = static_cast<std::ptrdiff_t>(order) - 1;  // nodes of an edge beside its ends
     const auto begin = places.begin() + 4 + 2 * between, inner = begin + 2 * between;
     std::reverse(begin, begin + between);
     std::reverse(begin + between, inner);

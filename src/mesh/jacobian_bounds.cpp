@@ -482,7 +482,8 @@ JacobianBounds bound_by_halving(const DeterminantRule& rule, Part part, double u
     for (;;) {
         for (const std::size_t corner : rule.corners)
             if (part.coefficients[corner] < -part.radius) return {CellVerdict::invalid, 0, bounds.upper};
-        const double smallest = *std::ranges::min_element(of_part(part)) - part.radius;
+        const auto coefficients = of_part(part);
+        const double smallest = *std::min_element(coefficients.begin(), coefficients.end()) - part.radius;
         if (smallest > 0) {
             lower = std::min(lower, smallest);
             if (undecided.empty()) break;
@@ -491,7 +492,9 @@ JacobianBounds bound_by_halving(const DeterminantRule& rule, Part part, double u
             continue;
         }
         // What is not above its own error cannot be proved positive by any number of halvings.
-        if (part.halvings == max_halvings || !(*std::ranges::max_element(of_part(part)) > part.radius)) return bounds;
+        if (part.halvings == max_halvings ||
+            !(*std::max_element(coefficients.begin(), coefficients.end()) > part.radius))
+            return bounds;
         const auto [first, second] = halves_of(rule.grid, part);
         undecided.push_back(first);
         part = second;

@@ -384,15 +384,14 @@ FlowGuidance guide_by_flow(const Geometry& given, const FlowWalls& walls, const 
     if (options.enabled && options.wake_layers)
         growth.wakes = wake_lines(*guidance.flow, guidance.wakes, growth.least_heights);
     for (const AngleFlow& at : flows) {
-        const auto own = static_cast<std::ptrdiff_t>(guidance.spacings.size());
+        const std::size_t own = guidance.spacings.size();
         if (!at.flow.estimated) {
             const std::vector<geometry::WallSpacing> spacings = spacings_of_flow(at.flow, growth);
             guidance.spacings.insert(guidance.spacings.end(), spacings.begin(), spacings.end());
         }
         if (at.compressible) add_shocks(*at.compressible, growth.fineness, guidance);
         if (flows.size() > 1)
-            guidance.angles.push_back(
-                decisions_at_angle(at, {guidance.spacings.begin() + own, guidance.spacings.end()}));
+            guidance.angles.push_back(decisions_at_angle(at, std::span(guidance.spacings).subspan(own)));
     }
     leave_out_images(given, guidance, growth);
     return guidance;
