@@ -33,6 +33,8 @@ for (const folder of [site, made]) {
 
 await build({...shared, entryPoints: ["src/page.ts", "src/worker.ts"], outdir: site});
 await cp("src/index.html", `${site}/index.html`);
+const isExample = (path) => !/\.(md|svg)$/.test(path);
+await cp(`${root}examples/geometry`, `${site}/examples`, {recursive: true, filter: isExample});
 const styles = await Promise.all([`${root}share/page/page.css`, "src/page.css"].map((file) => readFile(file, "utf8")));
 await writeFile(`${site}/page.css`, styles.join("\n"));
 await cp(`${module}/lamina.wasm`, `${site}/lamina.wasm`);

@@ -85,6 +85,16 @@ val elements_of(const MeshResult& result) {
     return list;
 }
 
+val curved_of(const MeshResult& result) {
+    if (result.curved.order <= 1) return val::null();
+    val entry = val::object();
+    entry.set("order", result.curved.order);
+    entry.set("wall_edges", static_cast<double>(result.curving.wall_edges));
+    entry.set("curved_wall_edges", static_cast<double>(result.curving.curved_edges));
+    entry.set("min_scaled_jacobian", result.curved_check.min_scaled_jacobian);
+    return entry;
+}
+
 val places_of(const Mesh& mesh) {
     val list = val::array();
     for (const auto& [name, window] : named_places(mesh)) {
@@ -104,6 +114,7 @@ val facts_of(const MeshResult& result) {
     facts.set("places", places_of(result.mesh));
     facts.set("layer", quality_of(result.check.layer));
     facts.set("isotropic", quality_of(result.check.isotropic));
+    facts.set("curved", curved_of(result));
     facts.set("seconds", result.seconds.total);
     return facts;
 }
@@ -132,7 +143,11 @@ val HeldMesh::arrays() const {
 }
 
 void HeldMesh::write(const std::string& file, const std::string& format, bool wall_distance) const {
-    write_mesh(mesh_, file, {.format = format, .wall_distance = wall_distance});
+    const WriteOptions options{.format = format, .wall_distance = wall_distance};
+    if (nodes_.order > 1)
+        write_curved_mesh(mesh_, nodes_, file, options);
+    else
+        write_mesh(mesh_, file, options);
 }
 
 val generate(const val& inputs, const val& options, const val& progress) {
@@ -144,7 +159,7 @@ val generate(const val& inputs, const val& options, const val& progress) {
     val reply = val::object();
     reply.set("warnings", warnings_of(result.warnings));
     reply.set("facts", facts_of(result));
-    reply.set("mesh", HeldMesh(std::move(result.mesh)));
+    reply.set("mesh", HeldMesh(std::move(result.mesh), std::move(result.curved)));
     return reply;
 }
 

@@ -5,6 +5,7 @@
 
 #include <emscripten/val.h>
 
+#include <lamina/curved_mesh.hpp>
 #include <lamina/mesh.hpp>
 
 namespace lamina::web {
@@ -12,18 +13,19 @@ namespace lamina::web {
 /// A mesh that JavaScript holds by this object, until it calls delete().
 class HeldMesh {
 public:
-    explicit HeldMesh(Mesh mesh) : mesh_(std::move(mesh)) {}
+    HeldMesh(Mesh mesh, CurvedNodes nodes) : mesh_(std::move(mesh)), nodes_(std::move(nodes)) {}
 
     /// Returns an object with copies of the arrays: points, triangles, quads, region, piece, layer, constraints, and
     /// markers with name, kind and edges.
     emscripten::val arrays() const;
-    /// Writes the mesh to a file of the module's file system. Throws what write_mesh() throws.
+    /// Writes the mesh to a file of the module's file system. Throws what write_mesh() and write_curved_mesh() throw.
     void write(const std::string& file, const std::string& format, bool wall_distance) const;
     /// Returns mesh_hash().
     std::string hash() const { return mesh_hash(mesh_); }
 
 private:
     Mesh mesh_;
+    CurvedNodes nodes_;  ///< of cells of an order above 1
 };
 
 /// Makes a mesh from inputs, which are names of files in the module's file system or of NACA sections, with the options

@@ -15,12 +15,14 @@ interface Slider {
 const mainOptions: Slider[] = [
   {key: "reynolds", label: "Reynolds number", from: 1e4, to: 1e8, ratios: true},
   {key: "alpha", label: "Angle of attack, degrees", from: -10, to: 20, step: 0.5},
+  {key: "mach", label: "Mach number", from: 0.1, to: 3, step: 0.01},
   {key: "first_height", label: "First height, chords", from: 1e-7, to: 1e-2, ratios: true},
   {key: "y_plus", label: "y+ of the first layer", from: 0.1, to: 200, ratios: true},
   {key: "growth", label: "Growth of layers", from: 1.05, to: 1.5, step: 0.01},
   {key: "max_ray_angle", label: "Angle between rays, degrees", from: 1, to: 20, step: 0.5},
   {key: "gradation", label: "Growth of triangles", from: 0.02, to: 0.5, step: 0.01},
   {key: "far_field", label: "Far field, chords", from: 2, to: 500, ratios: true},
+  {key: "order", label: "Order of the cells", from: 1, to: 4, step: 1},
 ];
 const mainChoices = [
   {key: "layer_topology", label: "Cells of the layer"},
@@ -37,6 +39,19 @@ function numberText(value: number): string {
 function defaultText(row: OptionRow): string {
   if (row.default === null) return "";
   return Array.isArray(row.default) ? row.default.join(" ") : String(row.default);
+}
+
+/** Returns a button that opens a text, and the text. */
+export function helpOf(name: string, text: string): [HTMLButtonElement, HTMLElement] {
+  const button = Object.assign(document.createElement("button"), {type: "button", className: "help", textContent: "?"});
+  const help = Object.assign(document.createElement("p"), {className: "hint", hidden: true, textContent: text});
+  button.setAttribute("aria-label", `help: ${name}`);
+  button.setAttribute("aria-expanded", "false");
+  button.addEventListener("click", () => {
+    help.hidden = !help.hidden;
+    button.setAttribute("aria-expanded", String(!help.hidden));
+  });
+  return [button, help];
 }
 
 /** Returns what a text means for an option of this kind; undefined for an empty text. */
@@ -82,6 +97,18 @@ export class OptionForm {
       if (value !== undefined) values[key] = value;
     }
     return values;
+  }
+
+  /** Returns the texts of the options that are set. */
+  texts(): Map<string, string> {
+    return new Map(this.#texts);
+  }
+
+  /** Sets these options, and no others. Returns the keys that are not options of the page. */
+  replace(texts: Map<string, string>): string[] {
+    for (const key of [...this.#texts.keys()]) if (!texts.has(key)) this.#put(key, "");
+    for (const [key, text] of texts) if (this.#rows.has(key)) this.#put(key, text);
+    return [...texts.keys()].filter((key) => !this.#rows.has(key));
   }
 
   /** Sets an option as if a person had typed the text. Options that it excludes are no longer set. */
@@ -133,7 +160,7 @@ export class OptionForm {
     box.dataset.key = row.key;
     box.title = row.help + (row.range ? ` (${row.range})` : "");
     body.append(label);
-    box.append(body);
+    box.append(body, ...helpOf(label, box.title));
     this.#boxes.set(row.key, [...(this.#boxes.get(row.key) ?? []), box]);
     return {box, body};
   }

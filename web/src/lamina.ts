@@ -114,6 +114,14 @@ export interface Place {
   window: [number, number, number, number];
 }
 
+/** How cells of an order above 1 follow the walls. All are proved valid. */
+export interface Curving {
+  order: number;
+  wall_edges: number;
+  curved_wall_edges: number;
+  min_scaled_jacobian: number;
+}
+
 export interface Facts {
   /** The reference chord, in units of the input. */
   chord: number;
@@ -122,6 +130,8 @@ export interface Facts {
   places: Place[];
   layer: Quality;
   isotropic: Quality;
+  /** Null where the cells are straight. */
+  curved: Curving | null;
   /** The time that the mesh took. */
   seconds: number;
 }

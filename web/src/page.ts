@@ -1,7 +1,8 @@
 // The page: a form on the left, the picture in the middle, what came out on the right. Each change makes a new mesh.
 import {Mesher, Stopped} from "./client.ts";
+import {caseOfText, CaseHistory, examples, firstNaca, longestLink, textOfCase, type Case} from "./case.ts";
 import {LaminaError} from "./error.ts";
-import {OptionForm} from "./form.ts";
+import {helpOf, OptionForm} from "./form.ts";
 import type {InputFile} from "./lamina.ts";
 import type {MadeMesh, Offer} from "./messages.ts";
 import {Picture, placesOf, type Coloring} from "./picture.ts";
@@ -21,12 +22,17 @@ const naca = byId<HTMLInputElement>("naca"),
 const pauseBeforeMeshing = 120; // milliseconds; a slider that moves changes options many times a second
 
 let form: OptionForm;
-let files: InputFile[] = [];
+let files: Case["files"] = [];
+/** What a link asked for that cannot be had; empty after the next change. */
+let wrongLink = "";
 /** The inputs of the mesh in the picture: where others come, the picture shows all of them. */
 let shownInputs = "";
 let busy = false,
   again = false,
-  timer = 0;
+  timer = 0,
+  timerOfCase = 0;
+const pauseBeforeKeeping = 400; // milliseconds; browsers refuse to change addresses more often
+let cases = new CaseHistory("");
 
 function inputs(): (string | InputFile)[] {
   return files.length > 0 ? files : [`naca:${naca.value.trim()}`];
@@ -47,16 +53,108 @@ function make<Name extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
+// --- The case, which the address of the page holds
+
+function caseText(): string {
+  const options = form.texts();
+  options.delete("threads"); // no matter of the mesh
+  return textOfCase({naca: naca.value.trim(), files, options});
+}
+
+/** Keeps the case to come back to, and puts it into the address. */
+function keepCase(): void {
+  const text = caseText(),
+    fits = text.length <= longestLink;
+  clearTimeout(timerOfCase);
+  cases.add(text);
+  history.replaceState(null, "", text && fits ? `#${text}` : location.pathname + location.search);
+  byId<HTMLButtonElement>("undo").disabled = !cases.canUndo;
+  byId<HTMLButtonElement>("copy").disabled = !fits || !navigator.clipboard;
+}
+
+/** Takes over the case that a text holds, and those of its parts that the page knows. */
+function showCase(text: string): void {
+  let wanted: Case = {naca: firstNaca, files: [], options: new Map()};
+  wrongLink = "";
+  try {
+    wanted = caseOfText(text);
+  } catch (error) {
+    wrongLink = (error as Error).message;
+  }
+  naca.value = wanted.naca;
+  files = wanted.files;
+  const unknown = form.replace(wanted.options);
+  if (unknown.length > 0) wrongLink = `the link sets what is no option of this page: ${unknown.join(", ")}`;
+  listFiles();
+}
+
+async function showExample(label: string): Promise<void> {
+  const {files: names, text} = examples.find((example) => example.label === label)!;
+  try {
+    const read = names.map(async (name) => {
+      const reply = await fetch(`examples/${name}`);
+      if (!reply.ok) throw new Error(`examples/${name} cannot be had from the server`);
+      return {name, text: new Uint8Array(await reply.arrayBuffer())};
+    });
+    showCase(textOfCase({...caseOfText(text), files: await Promise.all(read)}));
+    changed();
+  } catch (error) {
+    showError(error as Error);
+  }
+}
+
+function takeCases(): void {
+  const chooser = byId<HTMLSelectElement>("examples"),
+    copy = byId<HTMLButtonElement>("copy");
+  chooser.append(...examples.map(({label}) => new Option(label, label)));
+  chooser.addEventListener("change", () => {
+    const {value} = chooser;
+    chooser.value = "";
+    if (value) void showExample(value);
+  });
+  const undo = (): void => {
+    keepCase();
+    showCase(cases.undo());
+    changed();
+  };
+  byId("undo").addEventListener("click", undo);
+  document.addEventListener("keydown", (event) => {
+    const inText = event.target instanceof HTMLInputElement && event.target.type !== "range";
+    if (event.key !== "z" || !(event.ctrlKey || event.metaKey) || event.shiftKey || inText) return;
+    event.preventDefault();
+    undo();
+  });
+  byId("reset").addEventListener("click", () => {
+    showCase("");
+    changed();
+  });
+  copy.addEventListener("click", async () => {
+    keepCase();
+    await navigator.clipboard.writeText(location.href);
+    copy.textContent = "Copied";
+    setTimeout(() => (copy.textContent = "Copy link"), 1500);
+  });
+  window.addEventListener("hashchange", () => {
+    if (location.hash.slice(1) !== caseText()) showCase(location.hash.slice(1));
+    changed();
+  });
+}
+
 // --- Making a mesh
 
 function changed(): void {
   clearTimeout(timer);
   timer = window.setTimeout(update, pauseBeforeMeshing);
+  clearTimeout(timerOfCase);
+  timerOfCase = window.setTimeout(keepCase, pauseBeforeKeeping);
 }
 
 async function update(): Promise<void> {
   again = busy;
   if (busy) return;
+  const wrong = wrongLink;
+  wrongLink = "";
+  if (wrong) return showError(new Error(wrong));
   busy = true;
   const late = window.setTimeout(() => showState("Meshing ...", true), 250);
   try {
@@ -118,6 +216,14 @@ function showMesh(made: MadeMesh, names: string): void {
       `${facts.isotropic.min_angle.toFixed(1)} to ${facts.isotropic.max_angle.toFixed(1)} degrees`,
     ],
     ["mean ratio there", facts.isotropic.mean_ratio.toFixed(3)],
+    ...(facts.curved
+      ? [
+          [
+            `cells of order ${facts.curved.order}`,
+            `scaled Jacobian from ${numberText(facts.curved.min_scaled_jacobian, 3)}`,
+          ] as [string, string],
+        ]
+      : []),
     ["made and checked", `in ${facts.seconds.toFixed(2)} s`],
   ];
   byId("facts").replaceChildren(
@@ -141,7 +247,8 @@ function showMesh(made: MadeMesh, names: string): void {
       return box;
     }),
   );
-  byId("command").textContent = ["lamina", "mesh", ...inputNames(), ...form.commandLine(), "-o", "mesh.su2"]
+  const file = facts.curved ? "mesh.msh" : "mesh.su2";
+  byId("command").textContent = ["lamina", "mesh", ...inputNames(), ...form.commandLine(), "-o", file]
     .map(quoted)
     .join(" ");
 }
@@ -199,6 +306,7 @@ async function addFiles(given: Iterable<File>): Promise<void> {
   const names = new Set(read.map(({name}) => name));
   files = [...files.filter(({name}) => !names.has(name)), ...read];
   listFiles();
+  changed();
 }
 
 function listFiles(): void {
@@ -208,6 +316,7 @@ function listFiles(): void {
         remove = make("button", "×", () => {
           files = files.filter((other) => other !== file);
           listFiles();
+          changed();
         });
       remove.setAttribute("aria-label", `remove ${file.name}`);
       entry.append(remove);
@@ -215,11 +324,11 @@ function listFiles(): void {
     }),
   );
   naca.disabled = files.length > 0;
-  changed();
 }
 
 function takeInput(): void {
   const chooser = byId<HTMLInputElement>("files");
+  byId("naca-option").append(...helpOf("NACA", naca.title));
   naca.addEventListener("change", changed);
   byId("choose").addEventListener("click", () => chooser.click());
   chooser.addEventListener("change", () => {
@@ -244,6 +353,9 @@ async function begin(): Promise<void> {
     form = new OptionForm(rows, byId("main-options"), byId("all-options"), changed);
     offerDownloads(offer);
     takeInput();
+    takeCases();
+    showCase(location.hash.slice(1));
+    cases = new CaseHistory(caseText());
     document.querySelector(".heading p")!.textContent += ` Version ${offer.version}.`;
     await update();
   } catch (error) {

@@ -130,6 +130,21 @@ test("formats are written and zipped", async () => {
   made.delete();
 });
 
+test("curved cells are written as such, or refused", async () => {
+  const [straight, curved] = [
+    await mesh("naca:0012", {far_field: 5}),
+    await mesh("naca:0012", {far_field: 5, order: 2}),
+  ];
+  assert.equal(straight.facts.curved, null);
+  assert.equal(curved.facts.curved.order, 2);
+  assert(curved.facts.curved.min_scaled_jacobian > 0);
+  // Each edge has a node more, and there are three edges for two triangles.
+  const [few, many] = [straight, curved].map((made) => made.write("mesh.vtu")[0].bytes.length);
+  assert(many > 1.5 * few, `${few} ${many}`);
+  assert.throws(() => curved.write("mesh.su2"), /curved/);
+  for (const made of [straight, curved]) made.delete();
+});
+
 test("memory is given back", async () => {
   for (let i = 0; i < 40; ++i) (await mesh("naca:0012", {far_field: 5})).delete();
 });

@@ -212,10 +212,80 @@ try {
   assert.equal(zipped.name, "polyMesh.zip");
   assert.equal(zipped.bytes.readUInt32LE(0), 0x04034b50);
 
-  // 50,000 triangles within a second; a million without running out of memory.
+  // The address holds the case, files included: another page makes the same mesh of it.
+  const cells = async (of) => /([\d,]+) cells/.exec(await of.textContent("#headline"))[1];
+  const kept = (pattern) => page.waitForFunction((wanted) => new RegExp(wanted).test(location.hash), pattern.source);
+  await kept(/^#file=crmhl2d_slat\.dat:[\w-]+&file=.*&reynolds=5e6$/);
+  measured.linkCharacters = page.url().length;
+  await context.grantPermissions(["clipboard-read", "clipboard-write"]);
+  await page.click("#copy");
+  assert.equal(await page.evaluate(() => navigator.clipboard.readText()), page.url());
+  const linked = await context.newPage();
+  await linked.goto(page.url());
+  await linked.waitForFunction(() => document.body.dataset.state === "done", null, {timeout: 60_000});
+  assert.equal(await cells(linked), await cells(page));
+  assert.equal(await linked.textContent("#command"), await page.textContent("#command"));
+  // A link that is damaged, or from another version, says so.
+  for (const [hash, pattern] of [
+    ["#file=x.dat:AAAA", /damaged/],
+    ["#file", /damaged/],
+    ["#groth=1.3", /groth/],
+  ]) {
+    await linked.evaluate((text) => {
+      document.body.dataset.state = "waiting";
+      location.hash = text;
+    }, hash);
+    await linked.waitForFunction(() => document.body.dataset.state === "failed");
+    assert.match(await linked.textContent("#error"), pattern);
+  }
+  await linked.close();
+  // A link that is typed over the address of an open page.
+  await after(() => page.evaluate(() => void (location.hash = "#naca=0018:blunt&alpha=3")));
+  assert.equal(await page.inputValue("#naca"), "0018:blunt");
+  assert.match(await page.textContent("#command"), /^lamina mesh naca:0018:blunt --alpha 3 /);
+  // Undo goes back step by step, and reset is a step, too.
+  await setOption("alpha", "4");
+  await kept(/^#naca=0018:blunt&alpha=4$/);
+  await after(() => page.click("#reset"));
+  await kept(/^$/);
+  assert.equal(await page.inputValue("#naca"), "0012");
+  for (const hash of [
+    /^#naca=0018:blunt&alpha=4$/,
+    /^#naca=0018:blunt&alpha=3$/,
+    /^#file=crmhl2d_slat.*&reynolds=5e6$/,
+  ]) {
+    await after(() => page.keyboard.press("Control+z"));
+    await kept(hash);
+  }
+  assert.equal(await page.locator("#list li").count(), 3);
   await after(() => page.click("#list button"));
-  for (let left = 2; left > 0; --left) await after(() => page.click("#list button"));
-  await setOption("reynolds", "");
+  assert.equal(await page.locator("#list li").count(), 2);
+  // Each example makes a mesh. Curved cells are written as such, or refused.
+  const examples = (await page.locator("#examples option").allTextContents()).slice(1);
+  assert(examples.length >= 5);
+  measured.examples = {};
+  for (const label of examples) {
+    await after(() => page.selectOption("#examples", label));
+    measured.examples[label] = await headline();
+  }
+  assert.match(await page.textContent("#facts"), /cells of order 3/);
+  assert((await download("Gmsh MSH")).bytes.length > 0);
+  await after(() => page.click('#downloads button:text-is("SU2")'), "failed");
+  assert.match(await page.textContent("#error"), /curved/);
+  await picture("curved");
+  // Help at each field.
+  const fields = page.locator("#form .option"),
+    help = page.locator("#main-options [data-key=reynolds]");
+  assert.equal(await page.locator("#form .option > .help").count(), await fields.count());
+  assert(!(await help.locator(".hint").isVisible()));
+  await help.locator(".help").click();
+  assert.match(await help.locator(".hint").textContent(), /Reynolds/);
+  assert(await help.locator(".hint").isVisible());
+  await picture("help");
+  await help.locator(".help").click();
+  await after(() => page.click("#reset"));
+
+  // 50,000 triangles within a second; a million without running out of memory.
   await setOption("gradation", "0.06");
   const medium = await headline();
   measured.medium = medium;

@@ -20,6 +20,12 @@ const runs = [
   {names: ["packed.vtu"], format: "vtu-zlib"},
 ];
 
+/** Returns the runs of a case: curved cells stand in few formats. */
+function runsOf({options}) {
+  const isWritten = (name) => !("order" in options) || /(msh|vtu)$/.test(name);
+  return runs.map(({names, format}) => ({names: names.filter(isWritten), format}));
+}
+
 /** What the library refuses: by an option, by a file, and by where bodies lie. */
 const refusedCases = [
   {inputs: ["naca:0012"], options: {growth: 0.5}},
@@ -60,7 +66,7 @@ function nativeHashes(meshCase) {
     const topology = "layer_topology" in meshCase.options ? [] : ["--layer-topology", "layered"];
     const report = join(folder, "report.json");
     let seconds = 0;
-    for (const {names, format} of runs) {
+    for (const {names, format} of runsOf(meshCase)) {
       const files = names.flatMap((name) => ["-o", join(folder, name)]);
       execFileSync(
         program,
@@ -100,7 +106,7 @@ function filesOf({inputs}) {
 async function nodeHashes(meshCase) {
   const made = await mesh(filesOf(meshCase), meshCase.options);
   const hashes = {};
-  for (const {names, format} of runs)
+  for (const {names, format} of runsOf(meshCase))
     for (const name of names) for (const file of made.write(name, {format})) hashes[file.name] = hash(file.bytes);
   made.delete();
   return {hashes, cells: made.cellCount, seconds: made.facts.seconds};
@@ -126,7 +132,7 @@ async function startBrowser() {
           window.meshes.onerror = ({message}) => resolve({failure: message});
           window.meshes.postMessage(request);
         }),
-      {inputs: filesOf(meshCase), options: {threads: 3, ...meshCase.options}, runs},
+      {inputs: filesOf(meshCase), options: {threads: 3, ...meshCase.options}, runs: runsOf(meshCase)},
     );
     if (made.failure) throw new Error(made.failure);
     return made;
@@ -140,9 +146,12 @@ async function startBrowser() {
 
 const {threadHashes, end} = await startBrowser();
 let different = 0,
-  files = 0;
+  files = 0,
+  expected = 0;
 for (const meshCase of cases) {
   const native = nativeHashes(meshCase);
+  // polyMesh is five files.
+  for (const name of runsOf(meshCase).flatMap(({names}) => names)) expected += name === "polyMesh" ? 10 : 2;
   for (const [where, hashesOf] of [
     ["Node.js", nodeHashes],
     ["threads", threadHashes],
@@ -167,4 +176,4 @@ for (const refusedCase of refusedCases) {
 }
 await end();
 console.log(`${cases.length} cases, ${files} files, ${refusedCases.length} refusals, ${different} differ`);
-process.exitCode = different > 0 || files !== 2 * 9 * cases.length ? 1 : 0;
+process.exitCode = different > 0 || files !== expected ? 1 : 0;
