@@ -19,11 +19,12 @@ namespace lamina {
 
 /// The conditions as they are given.
 struct FlowConditions {
-    double alpha_deg = 0;               ///< angle of attack: the flow comes from the left and rises at this angle
-    std::optional<double> reynolds{};   ///< Reynolds number of the free stream, based on the chord
-    std::optional<double> mach{};       ///< Mach number of the free stream
-    std::optional<double> chord{};      ///< reference chord in units of the input; empty: the extent in x
-    std::optional<double> velocity{};   ///< of the free stream, in units of the input per second
+    double alpha_deg = 0;              ///< angle of attack: the flow comes from the left and rises at this angle
+    std::optional<double> reynolds{};  ///< Reynolds number of the free stream, based on the chord
+    std::optional<double> mach{};      ///< Mach number of the free stream
+    std::optional<double> chord{};     ///< reference chord in units of the input; empty: an extent in x
+    std::string chord_element{};       ///< without a chord: the element whose extent in x it is; empty: of all together
+    std::optional<double> velocity{};  ///< of the free stream, in units of the input per second
     std::optional<double> viscosity{};  ///< kinematic viscosity, in squared units of the input per second
     /// Angles of attack that one mesh is to serve, in degrees; alpha_deg is one of them, where a single one is needed. The
     /// option `alpha` sets both. Empty: alpha_deg alone.
@@ -45,7 +46,8 @@ struct ReferenceConditions {
 };
 
 /// Returns the conditions of the flow round bodies in this box. The chord is the extent of the box in x unless it is
-/// given. The Reynolds number is the given one, or velocity x chord / viscosity. Throws as validate() does.
+/// given. The Reynolds number is the given one, or velocity x chord / viscosity. Throws as validate() does, and OptionError
+/// for a chord that is to be that of an element: reference_conditions() of geometry.hpp knows them.
 LAMINA_EXPORT ReferenceConditions reference_conditions(const FlowConditions& conditions, const Box& bodies);
 
 }  // namespace lamina

@@ -8,7 +8,7 @@
 // Example:
 //     const Geometry section = make_geometry({naca_airfoil("0012", 200)});
 //     const std::vector<FlowConditions> conditions{{.alpha_deg = 4, .reynolds = 1e6}};
-//     assert(can_be_coupled(section, reference_conditions(conditions[0], reference_box(section))));
+//     assert(can_be_coupled(section, reference_conditions(conditions[0], section)));
 //     const CoupledFlow found = solve_coupled_flow(section, conditions).front();
 //     assert(found.converged && found.forces.lift > 0.41 && found.forces.lift < 0.45);
 //     assert(found.forces.drag > 0.006 && found.forces.drag < 0.008 && found.transition_upper < found.transition_lower);

@@ -31,6 +31,7 @@ using OptionValue = std::variant<bool, std::int64_t, double, std::string, std::v
 enum class OptionKind {
     number,           ///< one number
     number_or_range,  ///< one number, or a range of numbers, as a word: "-4:18:1"
+    number_or_word,   ///< one number, or a word
     length,           ///< one length: a number of chords, or a word such as "0.003u" for units of the input
     count,            ///< one whole number
     count_or_auto,    ///< one whole number, or the word "auto"

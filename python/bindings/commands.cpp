@@ -19,6 +19,7 @@
 #include <lamina/surface.hpp>
 
 #include "app/check_report.hpp"
+#include "app/conditions_block.hpp"
 #include "app/page_text.hpp"
 #include "app/run_program.hpp"
 #include "arrays.hpp"
@@ -47,10 +48,15 @@ nb::tuple describe_sections(const nb::list& given, const std::vector<std::pair<s
     const CaseOptions options = make_request(values).options;
     const std::vector<Section> sections = sections_of(given);
     Geometry geometry;
-    run_unlocked([&] { geometry = prepare_geometry(geometry_of(sections, options.geometry), options); });
+    std::string chord;
+    run_unlocked([&] {
+        geometry = geometry_of(sections, options.geometry);
+        chord = app::chord_line(options.conditions, geometry);
+        geometry = prepare_geometry(std::move(geometry), options);
+    });
     nb::list facts;
     for (const Element& element : geometry.elements) facts.append(facts_of(element));
-    return nb::make_tuple(facts, describe(geometry));
+    return nb::make_tuple(facts, describe(geometry) + chord);
 }
 
 /// Returns the page that `lamina view` writes.

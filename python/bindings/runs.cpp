@@ -72,7 +72,7 @@ MeshRequest request_of(const OptionValues& values, const std::optional<Backgroun
 
 /// Returns the options of a mesh that is similar to that of the request, with lengths divided by a number.
 CaseOptions divided(const MeshRequest& request, double divisor, const Geometry& geometry) {
-    return refined(request.options, divisor, reference_conditions(request.options.conditions, reference_box(geometry)));
+    return refined(request.options, divisor, reference_conditions(request.options.conditions, geometry));
 }
 
 /// Returns a mesh with its warnings, the facts about the run, and the columns of the layer: of its cells, and the

@@ -72,9 +72,9 @@ class MeshOptions(TypedDict, total=False):
     # layers on both sides along the points of PLACE, X0,Y0,X1,Y1[,...] or a file of them, in units of the
     # input; an end at a wall stands on that; may be given several times, without INPUT too
     sheet: str | float | Sequence[str | float] | None
-    # reference chord, in units of the input: what lengths in chords count; else the extent in x of the
-    # configuration before --transform turns it; > 0
-    chord: float | None
+    # reference chord, in units of the input: what lengths in chords count; the name of an element: its extent
+    # in x; else the extent in x of the configuration; both before --transform turns them; > 0
+    chord: float | str | None
     # angle of attack, in degrees: the flow comes from the left and rises at this angle; nothing is turned; a
     # range: the mesh serves all angles from A to B, by the flow at each step (1); >= -90 and <= 90 [0]
     alpha: float | str | None

@@ -65,7 +65,8 @@ def type_of(row: Mapping[str, Any]) -> str:
         return "bool"
     if _is_choice(row):
         return "Literal[" + ", ".join(f'"{word}"' for word in row["metavar"].split("|")) + "]"
-    types = {"number": "float", "number_or_range": "float | str", "length": "float | str", "count": "int", "count_or_auto": 'int | Literal["auto"]',
+    types = {"number": "float", "number_or_range": "float | str", "number_or_word": "float | str",
+             "length": "float | str", "count": "int", "count_or_auto": 'int | Literal["auto"]',
              "flag": "bool", "word": "str | float | Sequence[float]", "words": "str | Sequence[str | float]",
              "repeated": "str | float | Sequence[str | float]", "path": "str | PathLike[str]"}
     return types[row["kind"]]

@@ -111,7 +111,7 @@ public:
     explicit AdaptMesher(const MeshCase& mesh_case)
         : base_(options_with_files(mesh_case)),
           geometry_(read_geometry(mesh_case.inputs, mesh_case.options.geometry)),
-          conditions_(reference_conditions(base_.conditions, reference_box(geometry_))),
+          conditions_(reference_conditions(base_.conditions, geometry_)),
           options_(base_) {}
 
     /// Changes wall spacings and sizes alone, so that the mesh without a solution has so many vertices: its layers keep

@@ -26,8 +26,8 @@ struct Sweep {
 
 /// Returns whether the option takes numbers, so that a colon between some means a range.
 bool takes_numbers(const Option<MeshCase>& option) {
-    constexpr std::array kinds{OptionKind::number, OptionKind::number_or_range, OptionKind::length, OptionKind::count,
-                               OptionKind::count_or_auto};
+    constexpr std::array kinds{OptionKind::number, OptionKind::number_or_range, OptionKind::number_or_word,
+                               OptionKind::length, OptionKind::count,           OptionKind::count_or_auto};
     return std::find(kinds.begin(), kinds.end(), option.kind) != kinds.end();
 }
 

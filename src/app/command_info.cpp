@@ -8,6 +8,7 @@
 
 #include "app/case.hpp"
 #include "app/commands.hpp"
+#include "app/conditions_block.hpp"
 #include "app/options.hpp"
 #include "app/standard_output.hpp"
 #include "app/table_option.hpp"
@@ -29,7 +30,9 @@ void add_info_command(CLI::App& app) {
         add_repeated_table_option(*command, option_table<GeometryOptions>(), name, (*repeated)[name]);
     for (const char* name : {"surface", "smooth", "spacing-max"})
         add_table_option(*command, option_table<SurfaceOptions>(), name, (*surface)[name]);
-    command->callback([inputs, given, repeated, surface] {
+    auto chord = std::make_shared<std::string>();
+    add_table_option(*command, option_table<FlowConditions>(), "chord", *chord);
+    command->callback([inputs, given, repeated, surface, chord] {
         MeshCase mesh_case = case_of_inputs(*inputs);
         for (const auto& [name, text] : *given)
             set_by_name(option_table<GeometryOptions>(), name, text, mesh_case.options.geometry);
@@ -40,9 +43,11 @@ void add_info_command(CLI::App& app) {
             set_by_name(option_table<SurfaceOptions>(), name, text, mesh_case.options.surface);
             if (!text.empty()) mesh_case.given.push_back(name);
         }
+        set_by_name(option_table<FlowConditions>(), "chord", *chord, mesh_case.options.conditions);
         require_consistent(mesh_case);
         const CaseOptions& options = mesh_case.options;
-        print_result(describe(prepare_geometry(read_geometry(mesh_case.inputs, options.geometry), options)));
+        const Geometry geometry = read_geometry(mesh_case.inputs, options.geometry);
+        print_result(describe(prepare_geometry(geometry, options)) + chord_line(options.conditions, geometry));
     });
 }
 

@@ -41,7 +41,7 @@ struct SizesArguments {
 WallFlowOptions wall_flow_of(const std::string& velocity, const MeshCase& mesh_case) {
     const CaseOptions options = options_with_files(mesh_case);
     const ReferenceConditions conditions =
-        reference_conditions(options.conditions, reference_box(read_geometry(mesh_case.inputs, options.geometry)));
+        reference_conditions(options.conditions, read_geometry(mesh_case.inputs, options.geometry));
     if (!conditions.reynolds) throw UsageError("option --velocity needs a case with a Reynolds number");
     return {velocity, conditions.chord / *conditions.reynolds};
 }

@@ -32,7 +32,7 @@ void print_layer(const YPlusArguments& arguments) {
     for (const auto& [name, value] : arguments.layer) set_by_name(option_table<LayerOptions>(), name, value, options);
     if (!arguments.layer.at("y-plus").empty() && !arguments.layer.at("first-height").empty())
         throw UsageError("y-plus and first-height exclude each other: give one of them");
-    const ReferenceConditions reference = reference_conditions(conditions, {});
+    const ReferenceConditions reference = reference_conditions(conditions, Box{});
     if (!reference.reynolds) throw OptionError("reynolds", "is needed, or velocity and viscosity");
     const double chord = reference.chord, reynolds = *reference.reynolds;
     const auto* height = std::get_if<Length>(&options.first_height);

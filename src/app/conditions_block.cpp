@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <lamina/error.hpp>
+
 #include "app/options.hpp"
 #include "app/summary.hpp"
 
@@ -60,7 +62,7 @@ std::vector<FlowFact> flow_facts(const MeshCase& mesh_case, const MeshResult& re
     const ReferenceConditions& flow = result.conditions;
     const FlowConditions& options = mesh_case.options.conditions;
     std::vector<FlowFact> facts{
-        {"chord", "chord", flow.chord, "", options.chord ? "given" : "extent in x"},
+        {"chord", "chord", flow.chord, "", chord_source(options)},
         {"alpha_deg", "angle of attack", flow.alpha_deg, " deg", source_of(mesh_case, "alpha"), flow.alpha_deg == 0}};
     if (options.alphas) {
         facts.back().is_default = false;
@@ -194,6 +196,21 @@ std::string angles_summary(const MeshResult& result) {
 }
 
 }  // namespace
+
+std::string chord_source(const FlowConditions& conditions) {
+    if (conditions.chord) return "given";
+    return "extent in x" + (conditions.chord_element.empty() ? "" : " of " + conditions.chord_element);
+}
+
+std::string chord_line(const FlowConditions& conditions, const Geometry& geometry) {
+    try {
+        const double chord = reference_conditions(conditions, geometry).chord;
+        return fmt::format("reference chord {:.6g} ({})\n", chord, chord_source(conditions));
+    } catch (const OptionError& error) {
+        if (!conditions.chord_element.empty()) throw;
+        return fmt::format("reference chord {}\n", error.reason());
+    }
+}
 
 Json both_units(double length, double chord) { return {{"chords", length / chord}, {"units", length}}; }
 

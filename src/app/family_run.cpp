@@ -151,7 +151,7 @@ std::vector<Member> plan_members(const FamilyArguments& arguments, const MeshCas
         straight.order = 1;
         options = with_scale(options, generate_mesh(geometry, straight).scale);
     }
-    const ReferenceConditions conditions = reference_conditions(options.conditions, reference_box(geometry));
+    const ReferenceConditions conditions = reference_conditions(options.conditions, geometry);
     std::vector<Member> members;
     for (int level = 0; level < arguments.levels; ++level) {
         const double divisor = whole_power(arguments.ratio, level - base);

@@ -48,7 +48,7 @@ bool is_undisplaced(const FoundFlow& found) {
 Geometry in_row(Geometry geometry, const CaseOptions& options) {
     const FarFieldOptions& domain = options.far_field;
     if (!domain.pitch) return geometry;
-    const double chord = reference_conditions(options.conditions, reference_box(geometry)).chord;
+    const double chord = reference_conditions(options.conditions, geometry).chord;
     return blade_row(std::move(geometry), in_units(*domain.pitch, chord), domain.stagger_deg);
 }
 
@@ -59,7 +59,7 @@ FoundFlow find_flow(Geometry geometry, const CaseOptions& options, const Transit
 std::vector<FoundFlow> find_flows(Geometry geometry, const CaseOptions& options,
                                   std::span<const FlowConditions> conditions, const TransitionOptions& transition) {
     geometry = in_row(std::move(geometry), options);
-    const ReferenceConditions reference = reference_conditions(options.conditions, reference_box(geometry));
+    const ReferenceConditions reference = reference_conditions(options.conditions, geometry);
     const FlowWalls walls = flow_walls(geometry, options.conditions, options.far_field);
     const Geometry prepared = prepare_surfaces(geometry, options.surface, reference.chord);
     const bool coupled = can_be_coupled(prepared, reference, walls);

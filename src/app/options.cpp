@@ -123,6 +123,13 @@ Number parse(const std::string& text, const std::string& origin, const char* typ
     return value;
 }
 
+/// Returns whether a text is a number, NaN and infinities among them.
+bool is_real(const std::string& text) {
+    double value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc{} && end == text.data() + text.size();
+}
+
 /// Reads a whole number, which may have an exponent: 2e9.
 OptionValue parse_count(const std::string& text, const std::string& origin) {
     if (text.find_first_of("eE") != std::string::npos) return parse<double>(text, origin, "whole number");
@@ -180,7 +187,8 @@ std::string help_text(const Option<MeshCase>& option) {
 OptionValue value_of_text(OptionKind kind, const std::vector<std::string>& texts, const std::string& origin) {
     if (kind == OptionKind::words || kind == OptionKind::repeated || kind == OptionKind::paths) return texts;
     const std::string& text = texts.back();
-    if (kind == OptionKind::number || (kind == OptionKind::number_or_range && !is_range(text)))
+    if (kind == OptionKind::number || (kind == OptionKind::number_or_range && !is_range(text)) ||
+        (kind == OptionKind::number_or_word && is_real(text)))
         return parse_real(text, origin);
     if (kind == OptionKind::flag) return text == "true";
     if (kind == OptionKind::count || (kind == OptionKind::count_or_auto && text != auto_word))

@@ -129,7 +129,7 @@ PolarConditions polar_conditions(const Geometry& geometry, const ReferenceCondit
 }
 
 FlowPolar flow_polar(Geometry geometry, const CaseOptions& options, const TransitionOptions& transition) {
-    FlowPolar polar{polar_conditions(geometry, reference_conditions(options.conditions, reference_box(geometry))), {}};
+    FlowPolar polar{polar_conditions(geometry, reference_conditions(options.conditions, geometry)), {}};
     bool coupled = false;
     for (const FoundFlow& found :
          find_flows(std::move(geometry), options, conditions_of_angles(options.conditions), transition)) {

@@ -93,7 +93,7 @@ public:
 private:
     PolarConditions conditions() const {
         const Geometry bodies = in_row(geometry_, case_.options);
-        return polar_conditions(bodies, reference_conditions(case_.options.conditions, reference_box(bodies)));
+        return polar_conditions(bodies, reference_conditions(case_.options.conditions, bodies));
     }
     fs::path folder_of(double alpha) const { return settings_.folder / fmt::format("{}{}", folder_prefix, alpha); }
 

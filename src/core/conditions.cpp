@@ -10,10 +10,11 @@ namespace lamina {
 template <>
 OptionTable<FlowConditions> option_rows() {
     OptionTableBuilder<FlowConditions> table("Flow");
-    table.number("chord", "C",
-                 "reference chord, in units of the input: what lengths in chords count; else the extent in x of the "
-                 "configuration before --transform turns it",
-                 positive_numbers, member_at(&FlowConditions::chord));
+    table.number_or_word(
+        "chord", "C|ELEMENT",
+        "reference chord, in units of the input: what lengths in chords count; the name of an element: "
+        "its extent in x; else the extent in x of the configuration; both before --transform turns them",
+        positive_numbers, member_at(&FlowConditions::chord), member_at(&FlowConditions::chord_element));
     table.number_or_range("alpha", "DEG|A:B[:STEP]",
                           "angle of attack, in degrees: the flow comes from the left and rises at this angle; nothing "
                           "is turned; a range: "
@@ -66,6 +67,8 @@ std::vector<FlowConditions> conditions_of_angles(const FlowConditions& condition
 ReferenceConditions reference_conditions(const FlowConditions& conditions, const Box& bodies) {
     constexpr double least_slope = 1e-3;  // of width over height: upright plates have no chord
     validate(conditions);
+    if (!conditions.chord && !conditions.chord_element.empty())
+        throw OptionError("chord", "'" + conditions.chord_element + "' is no number, and there is no element");
     if (!conditions.chord && !(bodies.width() > least_slope * bodies.height()))
         throw OptionError("chord", "has to be given, as --chord C: the configuration has no extent in x");
     ReferenceConditions reference{.chord = conditions.chord.value_or(bodies.width()),

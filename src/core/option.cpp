@@ -22,6 +22,8 @@ const char* option_kind_name(OptionKind kind) {
             return "number";
         case OptionKind::number_or_range:
             return "number_or_range";
+        case OptionKind::number_or_word:
+            return "number_or_word";
         case OptionKind::length:
             return "length";
         case OptionKind::count:

@@ -100,6 +100,29 @@ public:
         return option;
     }
 
+    /// Adds an option that takes a number, or a word in its place; member(options) is an optional double, and
+    /// word_member(options) a string. At most one of both is set.
+    template <class Member, class WordMember>
+    Option<Options>& number_or_word(const std::string& name, std::string metavar, std::string help, OptionRange range,
+                                    Member member, WordMember word_member) {
+        Option<Options>& option = number(name, std::move(metavar), std::move(help), range, member);
+        option.kind = OptionKind::number_or_word;
+        const auto set_number = option.set;
+        const auto get_number = option.get;
+        option.set = [=, key = option.key()](Options& o, const OptionValue& value) {
+            const auto* word = std::get_if<std::string>(&value);
+            if (word && word->empty()) throw OptionError(key, "must be a number or a word");
+            if (!word) set_number(o, value);
+            if (word) member(o).reset();
+            word_member(o) = word ? *word : std::string();
+        };
+        option.get = [=](const Options& o) -> std::optional<OptionValue> {
+            const std::optional<OptionValue> number = get_number(o);
+            return number || word_member(o).empty() ? number : std::optional<OptionValue>(word_member(o));
+        };
+        return option;
+    }
+
     /// Adds an option that takes a length; member(options) is a Length or an optional of one.
     template <class Member>
     Option<Options>& length(const std::string& name, std::string metavar, std::string help, OptionRange range,

@@ -145,7 +145,7 @@ namespace lamina {
 using namespace flow;
 
 Flow solve_flow(const Geometry& geometry, const FlowConditions& conditions, const FlowWalls& walls) {
-    const ReferenceConditions reference = reference_conditions(conditions, reference_box(geometry));
+    const ReferenceConditions reference = reference_conditions(conditions, geometry);
     Flow flow;
     flow.alpha_deg = reference.alpha_deg;
     flow.chord = reference.chord;

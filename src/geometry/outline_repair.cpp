@@ -11,10 +11,12 @@
 
 #include <lamina/predicates.hpp>
 
+#include "core/bounding_box.hpp"
 #include "core/polygon.hpp"
 #include "core/segments.hpp"
 #include "geometry/folds.hpp"
 #include "geometry/half_section.hpp"
+#include "geometry/length_units.hpp"
 #include "geometry/point_runs.hpp"
 #include "geometry/scatter.hpp"
 #include "geometry/tail_crossing.hpp"
@@ -337,6 +339,9 @@ Element repair_outline(const RawOutline& outline, const std::string& file, const
         element.points.push_back(p.at);
         element.lines.push_back(p.line);
     }
+    if (element.unit.empty())
+        if (const auto unit = unit_of_title(element.title, core::bounding_box(element.points).width()))
+            element.unit = unit->name;
     return element;
 }
 

@@ -12,6 +12,7 @@
 #include <lamina/geometry.hpp>
 #include <lamina/predicates.hpp>
 
+#include "core/bounding_box.hpp"
 #include "core/suggestion.hpp"
 #include "core/text.hpp"
 #include "geometry/characters.hpp"
@@ -78,18 +79,29 @@ std::string meant_section(const std::string& input) {
     return std::string(naca_prefix) + input.substr(digits);
 }
 
-/// Returns Geometry::unturned_box of a geometry that is to be transformed. A section that stands upright is turned to
-/// lie in the flow, and its chord is that of the turned one.
-std::optional<Box> unturned_box(const Geometry& geometry, const std::vector<Transformation>& transformations) {
+bool turns(const Transformation& t) {
+    return std::holds_alternative<Rotation>(t.change) || std::holds_alternative<FlapDeflection>(t.change);
+}
+
+/// Transforms a geometry, and says where its elements lie without rotations and flaps. A section that stands upright is
+/// turned to lie in the flow, and its chord is that of the turned one.
+Geometry transformed_with_boxes(const Geometry& geometry, const std::vector<Transformation>& transformations) {
     constexpr double upright = 2;  // height over length, as for the warning of swapped columns
-    const auto turns = [](const Transformation& t) {
-        return std::holds_alternative<Rotation>(t.change) || std::holds_alternative<FlapDeflection>(t.change);
-    };
-    if (std::none_of(transformations.begin(), transformations.end(), turns)) return std::nullopt;
     std::vector<Transformation> others;
     std::remove_copy_if(transformations.begin(), transformations.end(), std::back_inserter(others), turns);
-    const Box box = bounding_box(transformed(geometry, others));
-    return box.height() > upright * box.width() ? std::nullopt : std::optional(box);
+    const Geometry unturned = transformed(geometry, others);
+    const bool any_turns = others.size() < transformations.size();
+    Geometry result = any_turns ? transformed(geometry, transformations) : unturned;
+    const auto is_upright = [&](const Box& box) { return box.height() > upright * box.width(); };
+    const Box all = bounding_box(unturned);
+    if (any_turns && !is_upright(all)) result.unturned_box = all;
+    for (std::size_t e = 0; e < result.elements.size(); ++e) {
+        const Element &before = unturned.elements[e], &after = result.elements[e];
+        const Box box = core::bounding_box(before.points);
+        result.unturned_elements.push_back(
+            {after.name, after.given_name, is_upright(box) ? core::bounding_box(after.points) : box});
+    }
+    return result;
 }
 
 /// Returns the contents of an airfoil file. An error says where the name was probably meant to be a section.
@@ -158,8 +170,7 @@ Geometry make_geometry(std::vector<Element> elements, const GeometryOptions& opt
     name_elements(geometry.elements, options);
     for (Element& element : geometry.elements) shape_tail(element, options);
     for (const Sheet& sheet : options.sheets) geometry.elements.push_back(open_sheet(sheet));
-    geometry.unturned_box = unturned_box(geometry, options.transformations);
-    geometry = transformed(std::move(geometry), options.transformations);
+    geometry = transformed_with_boxes(geometry, options.transformations);
     const auto first_sheet = geometry.elements.end() - static_cast<std::ptrdiff_t>(options.sheets.size());
     const std::vector<Element> sheets(first_sheet, geometry.elements.end());
     geometry.elements.erase(first_sheet, geometry.elements.end());

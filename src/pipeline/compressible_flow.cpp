@@ -140,7 +140,7 @@ bool is_beyond_critical(const Flow& flow, const FlowConditions& conditions) {
 CompressibleFlow solve_compressible_flow(const Geometry& geometry, const FlowConditions& conditions) {
     validate(conditions);
     if (!conditions.mach) throw OptionError("mach", "a compressible flow needs it");
-    const ReferenceConditions reference = reference_conditions(conditions, reference_box(geometry));
+    const ReferenceConditions reference = reference_conditions(conditions, geometry);
     Geometry whole = geometry::with_thickness(geometry);
     whole.symmetry.reset();
     for (Element& element : whole.elements) {

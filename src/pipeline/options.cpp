@@ -152,7 +152,7 @@ void require_stream_along_walls(const FlowConditions& conditions, const FarField
 
 FlowWalls flow_walls(const Geometry& geometry, const FlowConditions& conditions, const FarFieldOptions& domain) {
     require_stream_along_walls(conditions, domain);
-    const double chord = reference_conditions(conditions, reference_box(geometry)).chord;
+    const double chord = reference_conditions(conditions, geometry).chord;
     const decoupling::FarField far_field = decoupling::place_far_field(bounding_box(geometry), chord, domain);
     FlowWalls walls;
     if (std::isfinite(far_field.floor)) walls.below = far_field.floor;
@@ -266,7 +266,7 @@ layers::BorderOptions border_with_sources(layers::BorderOptions border, std::spa
 Geometry part_in_domain(Geometry geometry, const FarFieldOptions& domain, const FlowConditions& conditions) {
     if (domain.symmetry) return cut_at_symmetry(std::move(geometry), *domain.symmetry);
     if (!domain.pitch) return geometry;
-    const double chord = reference_conditions(conditions, reference_box(geometry)).chord;
+    const double chord = reference_conditions(conditions, geometry).chord;
     return blade_row(std::move(geometry), in_units(*domain.pitch, chord), domain.stagger_deg);
 }
 

@@ -60,7 +60,7 @@ using namespace pipeline;
 
 Geometry prepare_geometry(Geometry geometry, const CaseOptions& options) {
     geometry = part_in_domain(std::move(geometry), options.far_field, options.conditions);
-    const ReferenceConditions conditions = reference_conditions(options.conditions, reference_box(geometry));
+    const ReferenceConditions conditions = reference_conditions(options.conditions, geometry);
     const layers::LayerGrowth growth = layers::layer_growth(options.layer, conditions);
     const double gradation = wall_gradation(options.sizing, options.fineness);
     return surface::prepare_within(std::move(geometry), options.surface,

@@ -65,7 +65,7 @@ Geometry read_inputs(const std::vector<std::string>& inputs, GeometryOptions opt
 PlannedLayer plan_layer(const Geometry& whole, const CaseOptions& options, const WorkCost& cost, StageClock& clock) {
     const Geometry given = part_in_domain(whole, options.far_field, options.conditions);
     refuse_curved_sheets(options.order, given);
-    const ReferenceConditions conditions = reference_conditions(options.conditions, reference_box(given));
+    const ReferenceConditions conditions = reference_conditions(options.conditions, given);
     const WorkBudget budget{options.limits, cost};
     require_surface_points_within(options.surface, given.elements.size(), budget);
     SizingOptions sizing = sizes_between_borders(wakes_at_angles(options.sizing, options.conditions), options.far_field,

@@ -75,6 +75,7 @@ std::string describe(const Geometry& geometry) {
         fmt::format_to(out, "{}\n", e.name);
         fmt::format_to(out, "  file           {} ({})\n", e.file, e.format);
         if (!e.title.empty()) fmt::format_to(out, "  title          {}\n", e.title);
+        if (!e.unit.empty()) fmt::format_to(out, "  unit           {}, as the file says\n", e.unit);
         if (e.points_read > 0) {
             fmt::format_to(out, "  points         {} read, {} in the outline\n", e.points_read, e.points.size());
         } else {

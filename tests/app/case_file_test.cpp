@@ -119,6 +119,34 @@ TEST(CaseFile, LengthsCountChordsOrUnitsOfTheInput) {
     EXPECT_EQ(run_lamina(folder, {"mesh", "dumped.toml", "--dump-config"}).out, dump.out);
 }
 
+TEST(CaseFile, TheChordMayBeThatOfAnElement) {
+    const TemporaryFolder folder;
+    folder.write("case.toml",
+                 "input = ['naca:0012', 'naca:0012']\nnames = ['wing', 'tail']\nchord = 'wing'\n"
+                 "transform = ['tail:scale:0.3', 'tail:shift:3,0.2']\nfirst_height = 1e-3\nfar_field = 5\n");
+    const ProgramRun dump = run_lamina(folder, {"mesh", "case.toml", "-o", "a.su2", "--dump-config"});
+    EXPECT_NE(dump.out.find("chord = 'wing'\n"), std::string::npos) << dump.out;
+    const ProgramRun run = run_lamina(folder, {"mesh", "case.toml", "-o", "a.su2", "--report", "a.json"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const auto report = nlohmann::json::parse(folder.read("a.json"))["conditions"];
+    EXPECT_EQ(report["chord"]["value"], 1);
+    EXPECT_EQ(report["chord"]["source"], "extent in x of wing");
+    EXPECT_EQ(report["far_field"]["units"], 5);
+    const std::vector<std::string> inputs{"naca:0012", "naca:4412"};
+    const auto with = [&](std::vector<std::string> words, const std::vector<std::string>& options) {
+        words.insert(words.end(), inputs.begin(), inputs.end());
+        words.insert(words.end(), options.begin(), options.end());
+        return run_lamina(folder, words);
+    };
+    const std::vector<std::string> apart{"--transform", "naca4412:shift:3,0"};
+    EXPECT_NE(with({"info"}, apart).out.find("reference chord 4 (extent in x)\n"), std::string::npos);
+    EXPECT_NE(with({"info", "--chord", "naca0012"}, apart).out.find("reference chord 1 (extent in x of naca0012)\n"),
+              std::string::npos);
+    EXPECT_NE(with({"info", "--chord", "0.25"}, apart).out.find("reference chord 0.25 (given)\n"), std::string::npos);
+    expect_refused(folder, {"info", "naca:0012", "--chord", "wing"}, usage, "element 'wing' is not known");
+    expect_refused(folder, {"yplus", "--reynolds", "1e6", "--chord", "wing"}, usage, "'wing' is no number");
+}
+
 TEST(CaseFile, TheReportGivesEachConditionWithItsSource) {
     const TemporaryFolder folder;
     folder.write("plate.dat", "4 0\n2 0.3\n0 0\n2 -0.3\n");

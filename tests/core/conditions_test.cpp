@@ -6,6 +6,7 @@
 
 #include <lamina/conditions.hpp>
 #include <lamina/error.hpp>
+#include <lamina/option.hpp>
 
 namespace lamina {
 namespace {
@@ -24,6 +25,23 @@ std::string refused_option_of(const FlowConditions& conditions) {
 TEST(Conditions, TheChordIsTheExtentInXUnlessItIsGiven) {
     EXPECT_EQ(reference_conditions({}, bodies).chord, 4);
     EXPECT_EQ(reference_conditions({.chord = 0.5}, bodies).chord, 0.5);
+}
+
+TEST(Conditions, TheOptionChordIsANumberOrTheNameOfAnElement) {
+    const Option<FlowConditions>& option = find_row(option_table<FlowConditions>(), "chord");
+    FlowConditions conditions;
+    EXPECT_FALSE(option.get(conditions));
+    option.set(conditions, std::string("main"));
+    EXPECT_EQ(conditions.chord_element, "main");
+    EXPECT_EQ(option.get(conditions), OptionValue("main"));
+    EXPECT_EQ(refused_option_of(conditions), "chord") << "a box has no elements";
+    option.set(conditions, 0.5);
+    EXPECT_EQ(conditions.chord, 0.5);
+    EXPECT_EQ(conditions.chord_element, "");
+    option.set(conditions, std::string("main"));
+    EXPECT_FALSE(conditions.chord);
+    EXPECT_THROW(option.set(conditions, std::string()), OptionError);
+    EXPECT_THROW(option.set(conditions, -1.0), OptionError);
 }
 
 TEST(Conditions, VelocityAndViscosityGiveTheReynoldsNumberByTheChord) {

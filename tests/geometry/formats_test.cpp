@@ -304,5 +304,63 @@ TEST(ReferenceBox, IsThatBeforeElementsAreTurned) {
     EXPECT_EQ(width("all:rotate:90", folder.write("up.dat", lines_of(fixtures::loop, upright)).string()), 1);
 }
 
+TEST(ReferenceChord, IsThatOfTheElementThatIsNamed) {
+    const auto chord = [](const std::string& name, const std::vector<std::string>& changes, bool unite = false) {
+        GeometryOptions options{.names = {"main", "12"}, .unite = unite};
+        for (const std::string& change : changes) options.transformations.push_back(parse_transformation(change));
+        const std::vector<std::string> inputs{"naca:0012", "naca:4412:100:sharp"};
+        return reference_conditions({.chord_element = name}, read_geometry(inputs, options)).chord;
+    };
+    const std::vector<std::string> tandem{"12:scale:0.25", "12:shift:3,0.5"};
+    EXPECT_EQ(chord("main", tandem), 1);
+    EXPECT_NEAR(chord("12", tandem), 0.25, 1e-3) << "as it was given";
+    EXPECT_NEAR(chord("wall_12", tandem), 0.25, 1e-3) << "as its marker is called";
+    EXPECT_NEAR(chord("", tandem), 3.25, 1e-3);
+    EXPECT_EQ(chord("main", {"12:shift:3,0", "all:rotate:40", "main:flap:20:0.7,0"}), 1);
+    EXPECT_EQ(chord("main", {"12:shift:0.5,0.02"}, true), 1) << "where both are joined";
+    try {
+        chord("mian", tandem);
+        ADD_FAILURE();
+    } catch (const OptionError& error) {
+        EXPECT_EQ(error.option(), "chord");
+        EXPECT_NE(error.reason().find("did you mean 'main'?"), std::string::npos) << error.reason();
+    }
+}
+
+TEST(ReferenceChord, OfAnElementStaysWhereRowsAreTurnedAndHalvesAreCut) {
+    Geometry row = blade_row(make_geometry({naca_airfoil("0012", 100)}), 1, 30);
+    EXPECT_EQ(reference_conditions({.chord_element = "airfoil"}, row).chord, 1);
+    row.unturned_elements.clear();
+    EXPECT_LT(reference_conditions({.chord_element = "airfoil"}, row).chord, 0.9) << "elements made by hand";
+    const Geometry half = cut_at_symmetry(make_geometry({naca_airfoil("0012", 100)}), 0);
+    EXPECT_EQ(reference_conditions({.chord_element = "airfoil"}, half).chord, 1);
+}
+
+TEST(UnitOfTitle, IsTheOneOfTheCoordinates) {
+    const auto unit = [](const std::string& title) {
+        const auto found = geometry::unit_of_title(title, 250);
+        return found ? std::string(found->name) : "";
+    };
+    for (const char* title :
+         {"main element (mm)", "Main [mm]", "units: mm", "UNITS = MM", "unit mm", "units in mm", "coordinates in mm",
+          "all dimensions in millimetres", "NACA 0012, chord 250 mm", "NACA 0012 (chord = 250mm)",
+          "chord length: 249.8 mm", "slat, chord of 250 mm, cut in 1998"})
+        EXPECT_EQ(unit(title), "mm") << title;
+    EXPECT_EQ(unit("all dimensions in inches"), "in");
+    EXPECT_EQ(unit("units: in"), "in");
+    EXPECT_EQ(unit("chord 250 in"), "in");
+    for (const char* title :
+         {"", "NACA 0012", "chord 1 m", "chord 300 mm", "tested in 1942", "NLF(1)-0416", "in a tunnel", "5 mm gap",
+          "chord", "chord =", "length 250", "(chord", "m series (mod)", "in in"})
+        EXPECT_EQ(unit(title), std::string(title) == "in in" ? "in" : "") << title;
+}
+
+TEST(UnitOfTitle, IsThatOfTheElementUnlessTheColumnsNameOne) {
+    EXPECT_EQ(of_text("wing, units: mm\n" + fixtures::loop_lines).elements[0].unit, "mm");
+    EXPECT_EQ(of_text("wing, chord 1 m\n" + fixtures::loop_lines).elements[0].unit, "m");
+    EXPECT_EQ(of_text("wing, chord 1000 mm\n" + fixtures::loop_lines).elements[0].unit, "");
+    EXPECT_EQ(of_text("wing (mm)\n\"x [in]\";\"y [in]\"\n" + fixtures::loop_lines).elements[0].unit, "in");
+}
+
 }  // namespace
 }  // namespace lamina::formats_test

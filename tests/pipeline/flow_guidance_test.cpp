@@ -53,7 +53,7 @@ TEST(FlowGuidance, LayersAreThickerThanBoundaryLayersAtAnyReynoldsNumber) {
             const Flow flow = solve_flow(geometry, options.conditions);
             ASSERT_FALSE(flow.estimated);
             LayerGrowth growth =
-                layer_growth(options.layer, reference_conditions(options.conditions, {{0, 0}, {1, 0}}));
+                layer_growth(options.layer, reference_conditions(options.conditions, Box{{0, 0}, {1, 0}}));
             growth.least_heights = pipeline::heights_of_flow(flow);
             const layers::Rays rays = layers::grow_rays(geometry, options.layer, growth);
             for (std::size_t i = 0; i < rays.set.lines.size(); ++i) {
@@ -123,7 +123,7 @@ TEST(FlowGuidance, IdenticalElementsHaveIdenticalFirstHeights) {
 TEST(FlowGuidance, WarningsSayAtWhichOfSeveralAngles) {
     FlowConditions conditions{.alpha_deg = 20, .reynolds = 1e6};
     const Geometry geometry = shapes::geometry({naca("0012", 120)});
-    const ReferenceConditions reference = reference_conditions(conditions, {{0, 0}, {1, 0}});
+    const ReferenceConditions reference = reference_conditions(conditions, Box{{0, 0}, {1, 0}});
     const auto messages = [&] {
         std::vector<std::string> said;
         layers::LayerGrowth growth;

@@ -66,6 +66,8 @@ TEST(CaseOptions, RowsRefuseWhatIsNoNumberOrHasAnotherType) {
         if (option.kind == OptionKind::number)
             wrong = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
                      std::string("many"), true};
+        if (option.kind == OptionKind::number_or_word)
+            wrong = {std::numeric_limits<double>::quiet_NaN(), -1.0, std::string(), true};
         if (option.kind == OptionKind::length)
             wrong = {std::numeric_limits<double>::quiet_NaN(),
                      -1.0,

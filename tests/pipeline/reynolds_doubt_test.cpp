@@ -12,7 +12,7 @@ namespace {
 
 std::string doubt(double velocity, double chord, double viscosity, const std::string& unit = "") {
     const FlowConditions conditions{.velocity = velocity, .viscosity = viscosity};
-    return doubt_of_reynolds(conditions, reference_conditions(conditions, {{0, 0}, {chord, 1}}), unit).value_or("");
+    return doubt_of_reynolds(conditions, reference_conditions(conditions, Box{{0, 0}, {chord, 1}}), unit).value_or("");
 }
 
 TEST(ReynoldsDoubt, OfMillimetresWithSiUnits) {
@@ -39,7 +39,7 @@ TEST(ReynoldsDoubt, NotOfPlausibleFlows) {
 TEST(ReynoldsDoubt, OfNumbersOfNoFlow) {
     const auto given = [](double reynolds) {
         const FlowConditions conditions{.reynolds = reynolds};
-        return doubt_of_reynolds(conditions, reference_conditions(conditions, {{0, 0}, {1, 1}}), "").has_value();
+        return doubt_of_reynolds(conditions, reference_conditions(conditions, Box{{0, 0}, {1, 1}}), "").has_value();
     };
     EXPECT_TRUE(given(0.5));
     EXPECT_TRUE(given(1e11));

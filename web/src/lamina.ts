@@ -31,6 +31,7 @@ export interface OptionRow {
   kind:
     | "number"
     | "number_or_range"
+    | "number_or_word"
     | "length"
     | "count"
     | "count_or_auto"

@@ -198,7 +198,7 @@ std::vector<CoupledFlow> solve_coupled_flow(const Geometry& geometry, std::span<
     std::optional<flow::coupled::Section> section;
     std::vector<CoupledFlow> flows;
     for (const FlowConditions& each : conditions) {
-        const ReferenceConditions reference = reference_conditions(each, reference_box(geometry));
+        const ReferenceConditions reference = reference_conditions(each, geometry);
         assert(can_be_coupled(geometry, reference));
         CoupledFlow& found = flows.emplace_back(CoupledFlow{solve_flow(geometry, each), {}});
         found.forces = flow_forces(found.flow);
