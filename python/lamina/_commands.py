@@ -173,6 +173,7 @@ class Polar(Values):
     state: Sequence[str]  #: whether each row can be trusted: "attached", "separated", "stalled", "steady", ...
     steady: np.ndarray  #: (n,) whether the state is one of a steady flow that the method is for
     note: Sequence[str]  #: more about the states
+    undisplaced: bool = False  #: whether the lift of a row is too high, since layers do not displace its flow
 
     def __len__(self) -> int:
         return len(self.alpha)
@@ -186,7 +187,7 @@ class Polar(Values):
         >>> list(table)[:3]
         ['alpha', 'cl', 'cd']
         """
-        columns = {f.name: getattr(self, f.name) for f in fields(self) if f.name not in ("name", "reynolds", "mach")}
+        columns = {f.name: getattr(self, f.name) for f in fields(self) if f.name not in ("name", "reynolds", "mach", "undisplaced")}
         try:
             import pandas  # type: ignore[import-untyped, unused-ignore]
         except ImportError:
@@ -206,7 +207,7 @@ def _polar_of(text: str) -> Polar:
     numbers = {name: column(name) for name in ("alpha", *keys, "top_xtr", "bottom_xtr", "y_plus")}
     return Polar(name=facts["name"], reynolds=facts["reynolds"], mach=facts["mach"], **numbers,
                  state=[row["state"] for row in rows], steady=np.array([row["steady"] for row in rows], dtype=bool),
-                 note=[row["note"] for row in rows])
+                 note=[row["note"] for row in rows], undisplaced=facts.get("undisplaced", False))
 
 
 @with_options
