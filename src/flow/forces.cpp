@@ -7,21 +7,11 @@
 
 #include "core/reproducible_math.hpp"
 #include "flow/panel_system.hpp"
+#include "flow/potential.hpp"
 
 namespace lamina::flow {
 
 namespace {
-
-/// Returns the momentum thickness far behind a side. It is that of the last place where the layer is attached: at the
-/// trailing edge itself the speed of potential flow falls to rest, which that of viscous flow does not.
-double momentum_far_behind(const std::vector<FlowPoint>& side) {
-    const auto attached = std::find_if(side.rbegin(), side.rend(), [](const FlowPoint& point) {
-        return point.state != BoundaryLayerState::separated;
-    });
-    const FlowPoint& end = attached == side.rend() ? side.back() : *attached;
-    if (!(end.speed > 0)) return 0;
-    return end.momentum * core::pow_reproducible(end.speed, 0.5 * (end.shape + 5));
-}
 
 /// Returns the force of the skin friction on a side along the free stream, over its dynamic pressure.
 double friction_on(const std::vector<FlowPoint>& side, Point stream) {
@@ -54,6 +44,15 @@ Point foremost(const Flow& flow) {
 }
 
 }  // namespace
+
+double momentum_far_behind(const std::vector<FlowPoint>& side) {
+    const auto attached = std::find_if(side.rbegin(), side.rend(), [](const FlowPoint& point) {
+        return point.state != BoundaryLayerState::separated;
+    });
+    const FlowPoint& end = attached == side.rend() ? side.back() : *attached;
+    if (!(end.speed > 0)) return 0;
+    return end.momentum * core::pow_reproducible(end.speed, 0.5 * (end.shape + 5));
+}
 
 }  // namespace lamina::flow
 

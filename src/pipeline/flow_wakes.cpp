@@ -17,10 +17,13 @@ namespace lamina::pipeline {
 
 namespace {
 
-/// Length of the wakes, in chords of the configuration.
-constexpr double wake_length = 2;
-/// Number of triangles across a wake, and across its inner part.
-constexpr double triangles_across = 10;
+/// Length of the wakes, and of layers along them, in chords of the configuration.
+constexpr double wake_length = 20, layered_length = 2;
+/// Number of edges across a wake, and across its inner part. There are fewer behind all elements and the mixing layers of a base,
+/// where the speed changes by no more than this from one to the next, over the free stream's: the velocity defect of a plane
+/// wake over its width is 0.86 over the distance, whatever the drag is (H. Schlichting, Boundary-Layer Theory, 7th ed. (1979),
+/// section 24.5), so that sizes grow as the distance.
+constexpr double edges_across = 10, change_of_speed = 0.0135, growth_behind = change_of_speed / 0.86;
 /// At either edge of a wake, triangles may grow over this share of its width.
 constexpr double outer_share = 0.15;
 /// No triangle is smaller than this for the sake of wakes, in chords of the configuration.
@@ -72,7 +75,7 @@ struct MeasuredLine {
     }
 };
 
-/// Streamlines need be no more exact than sizes are, and those that only tell widths have longer steps.
+/// Streamlines need be no more exact than sizes are. Those that only tell widths, and far behind all, have longer steps.
 constexpr StreamlineOptions rough{.tolerance = 1e-5}, rougher{.tolerance = 1e-4, .max_step = 0.25};
 
 void append_streamline(const Flow& flow, double length, const StreamlineOptions& options, MeasuredLine& line) {
@@ -90,14 +93,13 @@ std::vector<Flow> falling_lift(const Flow& flow, double share) {
 
 /// Follows flows of less and less lift from a trailing edge, up to the length of the wakes or to a body.
 MeasuredLine wake_line(std::span<const Flow> flows, Point from, const StreamlineOptions& options) {
-    const double chord = flows.front().chord, all = wake_length * chord;
+    const double chord = flows.front().chord;
     MeasuredLine line;
     line.add(from);
-    for (std::size_t k = 0; k < flows.size(); ++k) {
-        const double left = all - line.s.back();
-        const double step = lift_fall_length / lift_steps * chord;
-        append_streamline(flows[k], k + 1 < flows.size() ? std::min(step, left) : left, options, line);
-    }
+    for (std::size_t k = 0; k + 1 < flows.size(); ++k)
+        append_streamline(flows[k], lift_fall_length / lift_steps * chord, options, line);
+    append_streamline(flows.back(), layered_length * chord - line.s.back(), options, line);
+    append_streamline(flows.back(), wake_length * chord - line.s.back(), rougher, line);
     return line;
 }
 
@@ -128,12 +130,15 @@ double at_rest_behind(const FlowPoint& end) {
     return std::max(end.displacement - flow::separation_shape * end.momentum, 0.0);
 }
 
-/// Returns the width of the wake: that of a plane wake that begins as wide as the base and both layers. Besides, separated
-/// layers go on to spread by the fluid at rest below them.
+/// Returns the width of the wake: that of a plane wake that begins as wide as the base and both layers, with the momentum
+/// thickness far behind, or of the trailing edge where that is less: in front of other elements. Besides, separated layers go
+/// on to spread by the fluid at rest below them.
 double wake_width(const ElementFlow& element, double behind) {
     const FlowPoint &above = element.upper.back(), &below = element.lower.back();
-    return flow::wake_thickness(above.thickness + base_width(element), below.thickness, above.momentum + below.momentum,
-                                behind) +
+    double momentum = 0;
+    for (const auto* side : {&element.upper, &element.lower})
+        momentum += std::min(side->back().momentum, flow::momentum_far_behind(*side));
+    return flow::wake_thickness(above.thickness + base_width(element), below.thickness, momentum, behind) +
            std::min(inner_growth_at_rest * behind, at_rest_behind(above) + at_rest_behind(below));
 }
 
@@ -164,12 +169,31 @@ InnerWake inner_wake(const ElementFlow& element) {
     return inner;
 }
 
+/// Returns how long a wake is where it has come behind all trailing edges.
+double length_to_rear(const Flow& flow, const MeasuredLine& line) {
+    const Point stream = flow::free_stream(flow.alpha_deg);
+    double rear = -HUGE_VAL;
+    for (const ElementFlow& element : flow.elements)
+        for (const auto* side : {&element.upper, &element.lower}) rear = std::max(rear, dot(side->back().at, stream));
+    const auto behind =
+        std::find_if(line.points.begin(), line.points.end(), [&](Point p) { return dot(p, stream) >= rear; });
+    return behind == line.points.end() ? line.s.back() : line.s[static_cast<std::size_t>(behind - line.points.begin())];
+}
+
 /// Returns the part of a line from an arc length on, or its last point.
 MeasuredLine part_from(const MeasuredLine& line, double begin) {
     MeasuredLine part;
     part.add(line.at(begin));
     for (std::size_t i = 0; i < line.points.size(); ++i)
         if (line.s[i] > begin) part.add(line.points[i]);
+    return part;
+}
+
+/// Returns the part of a line up to an arc length.
+MeasuredLine part_up_to(const MeasuredLine& line, double end) {
+    MeasuredLine part;
+    for (std::size_t i = 0; i < line.points.size() && line.s[i] < end; ++i) part.add(line.points[i]);
+    part.add(line.at(end));
     return part;
 }
 
@@ -231,7 +255,7 @@ ElementWake open_wake(const Flow& flow, const ElementFlow& element, const flow::
 }  // namespace
 
 std::vector<ElementWake> wakes_of_flow(const Flow& flow, double fineness) {
-    const double across = fineness * triangles_across, radius_over_size = across * (0.5 - outer_share);
+    constexpr double inner_share = 0.5 - outer_share;
     const std::vector<Flow> flows = falling_lift(flow, lift_share),
                             weaker = falling_lift(flow, lift_share - lift_share_range);
     std::vector<ElementWake> wakes;
@@ -245,31 +269,38 @@ std::vector<ElementWake> wakes_of_flow(const Flow& flow, double fineness) {
         const MeasuredLine line = wake_line(flows, from, rough), other = wake_line(weaker, from, rougher);
         const InnerWake inner = inner_wake(element);
         const auto width = [&](double s) { return wake_width(element, s); };
-        const auto bounded = [&](double size) { return std::max(size, smallest_size / fineness * flow.chord); };
-        const auto size = [&](double s) { return bounded(width(s) / across); };
-        const auto radius_of = [&](const auto& size_at) {
-            return [&, size_at](double s) { return radius_over_size * size_at(s); };
+        const double split = std::min(inner.split_length, line.s.back()),
+                     rear = std::max(length_to_rear(flow, line), split);
+        // The size and the radius on a part of the wake that begins behind a length, and whether it is finer than the whole.
+        const auto size_of = [&](const auto& width_at, double begin) {
+            return [&, width_at, begin](double s) {
+                const double far = growth_behind * std::max(begin + s - rear, 0.0);
+                return std::max({width_at(s) / edges_across, far, smallest_size * flow.chord}) / fineness;
+            };
         };
-        const auto is_finer = [&](const auto& size_at) {
-            return [&, size_at](double s) { return size_ratio * size_at(s) < size(s); };
+        const auto size = size_of(width, 0);
+        const auto radius_of = [&](const auto& width_at) {
+            return [&, width_at](double s) { return inner_share * width_at(s); };
+        };
+        const auto is_finer = [&](const auto& width_at, double begin) {
+            return
+                [&, width_at, begin](double s) { return size_ratio * size_of(width_at, begin)(s) < size(begin + s); };
         };
         ElementWake& wake = wakes.emplace_back();
         wake.wake = {element.name, line.s.back(), width(0), width(line.s.back())};
-        wake.line = line.points;
+        wake.line = part_up_to(line, std::min(layered_length * flow.chord, line.s.back())).points;
         wake.outer = make_chain(
-            line, size, [&](double s) { return radius_over_size * size(s) + distance(line.at(s), other.at(s)); },
+            line, size, [&](double s) { return inner_share * width(s) + distance(line.at(s), other.at(s)); },
             [](double) { return true; });
-        const double split = std::min(inner.split_length, line.s.back());
-        const auto inner_size = [&](double s) { return bounded(inner.width(split + s) / across); };
-        wake.inner = make_chain(part_from(line, split), inner_size, radius_of(inner_size), is_finer(inner_size));
+        const auto inner_width = [&](double s) { return inner.width(split + s); };
+        wake.inner = make_chain(part_from(line, split), size_of(inner_width, split), radius_of(inner_width),
+                                is_finer(inner_width, split));
         for (WakeSource& source : wake.inner) source.begins += split;
         if (!inner.is_split) continue;
         for (const FlowPoint* corner : {&above, &below}) {
-            const auto mixing_size = [&](double s) {
-                return bounded((inner_start * corner->momentum + inner.growth * s) / across);
-            };
-            const auto chain = make_chain(line_from_corner(line, corner->at, split), mixing_size,
-                                          radius_of(mixing_size), is_finer(mixing_size));
+            const auto mixing_width = [&](double s) { return inner_start * corner->momentum + inner.growth * s; };
+            const auto chain = make_chain(line_from_corner(line, corner->at, split), size_of(mixing_width, 0),
+                                          radius_of(mixing_width), is_finer(mixing_width, 0));
             wake.mixing.insert(wake.mixing.end(), chain.begin(), chain.end());
         }
     }

@@ -8,6 +8,9 @@
 
 #include <lamina/error.hpp>
 
+#include "core/reproducible_math.hpp"
+#include "core/segments.hpp"
+#include "flow/boundary_layer.hpp"
 #include "flow/potential.hpp"
 #include "layers/stages.hpp"
 #include "pipeline/cases.hpp"
@@ -269,9 +272,21 @@ double at_rest(const FlowPoint& end) {
     return end.state == BoundaryLayerState::separated ? std::max(end.displacement - 2.4 * end.momentum, 0.0) : 0;
 }
 
-/// Sizes on a wake are a tenth of its width: that of a plane wake, whose square grows linearly from the trailing edge
-/// on, and that of the fluid at rest, over which mixing layers spread. The inner wake widens linearly, as much as a mixing
-/// layer where much fluid is at rest.
+/// Returns how far behind all trailing edges a place of a wake is, at most.
+double behind_all(const Flow& flow, const pipeline::ElementWake& wake, double begins) {
+    const Point stream{std::cos(flow.alpha_deg * core::pi / 180), std::sin(flow.alpha_deg * core::pi / 180)};
+    double before = HUGE_VAL;  // from the trailing edge to behind the last one
+    for (const ElementFlow& element : flow.elements)
+        before = std::min(before, dot(wake.line.front() - element.upper.back().at, stream));
+    double length = 0;
+    for (std::size_t i = 1; i < wake.line.size() && dot(wake.line[i - 1] - wake.line[0], stream) < -before; ++i)
+        length += distance(wake.line[i - 1], wake.line[i]);
+    return begins - length;
+}
+
+/// Sizes on a wake are a tenth of its width, and far behind all elements grow as the distance. The width is that of a plane
+/// wake, whose square grows linearly from the trailing edge on, and that of the fluid at rest, over which mixing layers spread.
+/// The inner wake widens linearly, as much as a mixing layer where much fluid is at rest.
 TEST(FlowGuidance, SizesOfWakesFollowTheLawsOfTheirWidths) {
     bool some_attached = false, some_separated = false;
     for (const double alpha_deg : {0.0, 6.0, 15.0}) {
@@ -280,33 +295,81 @@ TEST(FlowGuidance, SizesOfWakesFollowTheLawsOfTheirWidths) {
                                                  fine = pipeline::wakes_of_flow(flow, 2);
         for (std::size_t e = 0; e < 2; ++e) {
             const FlowPoint &above = flow.elements[e].upper.back(), &below = flow.elements[e].lower.back();
-            const double momentum = above.momentum + below.momentum, rest = at_rest(above) + at_rest(below),
+            const double at_edge = above.momentum + below.momentum, rest = at_rest(above) + at_rest(below),
+                         momentum = std::min(above.momentum, flow::momentum_far_behind(flow.elements[e].upper)) +
+                                    std::min(below.momentum, flow::momentum_far_behind(flow.elements[e].lower)),
                          start = above.thickness + below.thickness + distance(above.at, below.at);
+            const auto expect_size = [&](const pipeline::WakeSource& part, double width) {
+                const double far = 0.0135 / 0.86 * behind_all(flow, wakes[e], part.begins);
+                EXPECT_NEAR(part.source.size, std::max(0.1 * width, far), 0.006 * part.source.size);
+            };
             for (const pipeline::WakeSource& part : wakes[e].outer) {
-                const double plane = 10 * part.source.size - std::min(0.11 * part.begins, rest);
-                EXPECT_NEAR(plane * plane, start * start + 1.61 * 1.61 * momentum * part.begins, 0.01 * plane * plane);
+                const double plane = std::sqrt(start * start + 1.61 * 1.61 * momentum * part.begins);
+                expect_size(part, plane + std::min(0.11 * part.begins, rest));
             }
             const double first = 10 * wakes[e].inner.front().source.size;
-            EXPECT_NEAR(first, 4 * momentum, 1e-9 * flow.chord);
-            const double behind = wakes[e].inner.back().begins;
-            const double growth = (10 * wakes[e].inner.back().source.size - first) / behind;
+            EXPECT_NEAR(first, 4 * at_edge, 1e-9 * flow.chord);
+            const pipeline::WakeSource& second = wakes[e].inner[1];
+            const double growth = (10 * second.source.size - first) / second.begins;
             if (rest == 0) {
                 EXPECT_NEAR(growth, 0.06, 1e-9);
                 some_attached = true;
-            } else if (rest > 2.4 * momentum) {
+            } else if (rest > 2.4 * at_edge) {
                 EXPECT_NEAR(growth, 0.11, 1e-9);
                 some_separated = true;
             } else {
                 EXPECT_GT(growth, 0.06);
                 EXPECT_LT(growth, 0.11 + 1e-9);
             }
-            for (const pipeline::WakeSource& part : wakes[e].inner)
-                EXPECT_NEAR(10 * part.source.size, first + growth * part.begins, 1e-9 * flow.chord);
+            for (const pipeline::WakeSource& part : wakes[e].inner) expect_size(part, first + growth * part.begins);
             EXPECT_EQ(2 * fine[e].outer.front().source.size, wakes[e].outer.front().source.size);
         }
     }
     EXPECT_TRUE(some_attached);
     EXPECT_TRUE(some_separated);
+}
+
+/// Returns the number of triangles that a segment meets.
+std::size_t triangles_on(const Mesh& mesh, Point a, Point b) {
+    return static_cast<std::size_t>(
+        std::count_if(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& triangle) {
+            for (std::size_t k = 0; k < 3; ++k)
+                if (core::segments_meet(a, b, mesh.points[triangle.v[k].index()],
+                                        mesh.points[triangle.v[(k + 1) % 3].index()]))
+                    return true;
+            return false;
+        }));
+}
+
+/// A line across the wake meets at least ten triangles up to three chords behind the trailing edge, six up to ten and four up
+/// to twenty, as a mean over a tenth of the way.
+TEST(FlowGuidance, TrianglesResolveWakesFarBehind) {
+    const Geometry geometry = shapes::geometry({naca("2412", 160)});
+    for (const double reynolds : {1e6, 6e6}) {
+        CaseOptions options = guided_options(reynolds, 4);
+        options.far_field.size = 50;
+        const MeshResult result = generate_mesh(geometry, options);
+        const pipeline::ElementWake wake = pipeline::wakes_of_flow(*result.flow).front();
+        const ElementFlow& element = result.flow->elements.front();
+        const double momentum = 0.5 * flow_forces(*result.flow).drag;
+        constexpr int lines = 10;
+        for (const auto& [behind, least] :
+             {std::pair{0.5, 10}, {1.0, 10}, {2.0, 10}, {3.0, 10}, {5.0, 6}, {10.0, 6}, {19.9, 4}}) {
+            std::size_t triangles = 0;
+            for (int k = 0; k < lines; ++k) {
+                const double from = behind * (1 - 0.01 * k);
+                const auto part = std::find_if(wake.outer.rbegin(), wake.outer.rend(),
+                                               [&](const auto& source) { return source.begins <= from; });
+                const double width = flow::wake_thickness(element.upper.back().thickness,
+                                                          element.lower.back().thickness, momentum, from);
+                const Point along = unit(part->source.b - part->source.a),
+                            middle = part->source.a + (from - part->begins) * along,
+                            half = 0.5 * width * perpendicular(along);
+                triangles += triangles_on(result.mesh, middle - half, middle + half);
+            }
+            EXPECT_GE(triangles, static_cast<std::size_t>(least * lines)) << reynolds << ' ' << behind;
+        }
+    }
 }
 
 TEST(FlowGuidance, WakesScaleWithTheGeometry) {
@@ -434,7 +497,7 @@ TEST(FlowGuidance, TheResultSaysWhatTheFlowDecided) {
         const ElementFlow& element = result.flow->elements[e];
         EXPECT_EQ(wake.element, element.name);
         // The streamline is a little longer than its chords, and the straight line between its ends shorter.
-        EXPECT_LE(wake.length, 2 * result.conditions.chord * (1 + 1e-9));
+        EXPECT_LE(wake.length, 20 * result.conditions.chord * (1 + 1e-9));
         EXPECT_GE(wake.length, distance(wakes[e].line.front(), wakes[e].line.back()));
         EXPECT_EQ(wake.with_layers, 0);
         EXPECT_NEAR(wake.first_width, element.upper.back().thickness + element.lower.back().thickness,
