@@ -119,14 +119,12 @@ inline constexpr double min_adaptive_ratio = 1.05, max_adaptive_ratio = 1.5;
 inline constexpr double cost_of_distance = 0.05;
 
 /// Last layers become this many times as high as if their cells had the area of squares on the front's edges: half of
-/// such a cell has the area of the triangle beyond. They become the second number times as high at least, for 0.6 times
-/// the area; beside changes of the number of layers the first one, since fronts rise there by up to a quarter of the width
-/// of a column, which is less than a third of such a cell.
-inline constexpr double wanted_tallness = 0.91, least_tallness = 0.54;
+/// such a cell has the area of the triangle beyond, and the front's rise over a column is less than a third of it. Those of
+/// quadrilaterals stay as low as the second number says, since high ones skew the faces between columns.
+inline constexpr double wanted_tallness = 0.91, least_tallness_of_quads = 0.54;
 
 /// Rays lean along the front's edges by so much at most, as the sine between them; farther ones count as if they did.
-/// Columns of quadrilaterals count as upright.
-inline constexpr double least_sine = 0.5, sine_of_upright = 1;
+inline constexpr double least_sine = 0.5;
 
 /// Last layers become no higher than this share of the part that changes: the layers below would be far lower. Columns of
 /// which they are higher, with fewer than three layers in this part, stay as they are.

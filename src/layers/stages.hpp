@@ -124,10 +124,10 @@ struct Rays {
     /// stand at its vertices alone, lest neighbouring edges differ by whole factors (docs/layer.md).
     std::vector<char> jagged;
     bool enabled = true;  ///< LayerOptions::enabled
-    /// LayerOptions::topology. Last layers of quadrilaterals are not made higher where rays lean or numbers of layers
-    /// change, since faces between them would be more skewed for it (docs/layer.md). Tops of cells of the grid on
-    /// resampled walls stay whole where they are little longer than asked for: a point on a flat one makes an angle near
-    /// 180 degrees, where a Delaunay triangulation joins it to points farther below.
+    /// LayerOptions::topology. Last layers of quadrilaterals stay lower than others, since faces between them would be more
+    /// skewed (docs/layer.md). Tops of cells of the grid on resampled walls stay whole where they are little longer than
+    /// asked for: a point on a flat one makes an angle near 180 degrees, where a Delaunay triangulation joins it to points
+    /// farther below.
     LayerTopology topology = LayerTopology::layered;
     LayerGrowth growth;                 ///< the growth that was requested
     std::vector<double> asked;          ///< height along each ray at which its layers are to end; empty if disabled

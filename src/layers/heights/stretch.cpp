@@ -144,9 +144,8 @@ double least_ratio(double last) { return last * (2 - last); }
 /// The ratio to which the last spacing of a ray should be changed, and to which it may be: logarithms.
 struct LogRatios {
     double part = 0;                 ///< length of the part of the column that changes
-    double wanted = 0;               ///< with it the last layer is no higher than wanted
-    double least = -HUGE_VAL;        ///< below it the last layer would be too low
-    double most = HUGE_VAL;          ///< above it the last layer would be too high for the triangles beyond
+    double wanted = -HUGE_VAL;       ///< with it the last layer is about as high as the triangles beyond ask
+    double most = HUGE_VAL;          ///< above it the last layer would be too high for them
     double lowest = 0, highest = 0;  ///< what the column has room for, whatever its neighbours want
 };
 
@@ -156,33 +155,30 @@ struct LogRatios {
 ///        ._______.
 ///       /       /      edge * edge = height * (distance of the edge's other end from the ray)
 ///      /_______/
-double height_of_square(Point edge, Point direction, double lowest_sine) {
+double height_of_square(Point edge, Point direction) {
     const double width = length(edge);
-    const double across = std::max(std::abs(cross(edge, direction)), lowest_sine * width);
+    const double across = std::max(std::abs(cross(edge, direction)), least_sine * width);
     return across > 0 ? width * width / across : 0;
 }
 
 /// Returns the ratios for a ray between these two others.
 LogRatios log_ratios(const LayeredRays& rays, std::size_t before, std::size_t ray, std::size_t after, bool quads) {
-    const std::uint32_t n = rays.counts[ray], least_beside = std::min(rays.counts[before], rays.counts[after]);
+    const std::uint32_t n = rays.counts[ray];
     const std::uint32_t fixed = fixed_layers(rays.heights.column(ray), n);
-    if (n <= fixed || least_beside == 0) return {};
+    if (n <= fixed || std::min(rays.counts[before], rays.counts[after]) == 0) return {};
     const std::span<const double> heights = rays.heights.of(ray);
     const double last = rays.last_spacing(ray), part = heights[n] - heights[fixed];
     const Point tip = rays.tip(ray), direction = rays.set.lines[ray].direction;
-    const double sine = quads ? sine_of_upright : least_sine;
-    const double square = std::sqrt(height_of_square(rays.tip(before) - tip, direction, sine) *
-                                    height_of_square(rays.tip(after) - tip, direction, sine));
+    const double square = std::sqrt(height_of_square(rays.tip(before) - tip, direction) *
+                                    height_of_square(rays.tip(after) - tip, direction));
     if (last > max_last_share * part || !(square > 0)) return {};
-    const bool changes = rays.counts[before] != n || rays.counts[after] != n;
     const double to_square = core::log_reproducible(square / last),
-                 lowest = core::log_reproducible(least_ratio(last / part));
-    const double least = core::log_reproducible(changes && !quads ? wanted_tallness : least_tallness);
+                 least = core::log_reproducible(quads ? least_tallness_of_quads : wanted_tallness) + to_square,
+                 most = core::log_reproducible(wanted_tallness) + to_square;
     return {.part = part,
-            .wanted = std::clamp(core::log_reproducible(wanted_tallness) + to_square, lowest, 0.0),
-            .least = least + to_square,
+            .wanted = std::clamp(0.0, least, most),
             .most = to_square,
-            .lowest = lowest,
+            .lowest = core::log_reproducible(least_ratio(last / part)),
             .highest = core::log_reproducible(std::min(max_end_ratio, max_last_share * part / last))};
 }
 
@@ -190,26 +186,25 @@ LogRatios log_ratios(const LayeredRays& rays, std::size_t before, std::size_t ra
 std::vector<double> end_ratios(const LayeredRays& rays, bool quads) {
     const RayNeighbours neighbours(rays.set);
     std::vector<LogRatios> bounds;
-    std::vector<double> wanted, most, least;  // the latter negative, so that lowering it raises the bound
-    for (std::size_t i = 0; i < rays.counts.size(); ++i) {
+    for (std::size_t i = 0; i < rays.counts.size(); ++i)
         bounds.push_back(log_ratios(rays, neighbours.previous[i], i, neighbours.next[i], quads));
-        wanted.push_back(bounds.back().wanted);
-        most.push_back(bounds.back().most);
-        least.push_back(-std::min(bounds.back().least, bounds.back().highest));
-    }
-    // All lead over to the neighbours, so that no ratio jumps where one of them gives way to another.
-    for (std::vector<double>* values : {&wanted, &most, &least})
-        lower_to_neighbours(rays.set, *values, [&](std::size_t from, std::size_t to) {
+    std::vector<double> ratios(bounds.size());
+    const auto lead_over = [&] {
+        lower_to_neighbours(rays.set, ratios, [&](std::size_t from, std::size_t to) {
             const double part = std::max(bounds[from].part, bounds[to].part);
-            if (!(part > 0)) return HUGE_VAL;
-            return (*values)[from] + distance(rays.tip(from), rays.tip(to)) / part;
+            return part > 0 ? ratios[from] + distance(rays.tip(from), rays.tip(to)) / part : HUGE_VAL;
         });
-    std::vector<double> ratios;
-    for (std::size_t i = 0; i < wanted.size(); ++i) {
-        // Low cells of wide columns may not make cells of narrow ones too high.
-        const double ratio = std::max(wanted[i], std::min(-least[i], most[i]));
-        ratios.push_back(core::exp_reproducible(std::clamp(ratio, bounds[i].lowest, bounds[i].highest)));
-    }
+    };
+    // Ratios first rise towards those of the neighbours, then fall: high last layers may not make cells of narrow columns
+    // beside too high.
+    for (std::size_t i = 0; i < ratios.size(); ++i) ratios[i] = -std::min(bounds[i].wanted, bounds[i].highest);
+    lead_over();
+    for (std::size_t i = 0; i < ratios.size(); ++i)
+        ratios[i] = bounds[i].part > 0 ? std::min(-ratios[i], bounds[i].most) : HUGE_VAL;
+    lead_over();
+    for (std::size_t i = 0; i < ratios.size(); ++i)
+        ratios[i] = core::exp_reproducible(
+            std::clamp(ratios[i], bounds[i].lowest, std::max(bounds[i].lowest, bounds[i].highest)));
     return ratios;
 }
 
