@@ -199,50 +199,48 @@ private:
         for (const Index v : tris[t + ahead].v) fetch(v);
     }
 
-    /// Finds the facts about each vertex, among them the sum of its neighbours. Each of its triangles contributes one.
-    void find_movers_and_sums() {
-        vertices_.assign(points_.size(), {});
-        states_.assign(points_.size(), State::moved);
-        std::fill(states_.begin(), states_.begin() + first_movable_, State::fixed);
+    /// Calls visit(tri, t, vertices, points) for each triangle, with what is known of the vertices of later ones fetched.
+    template <class Visit>
+    void visit_triangles(Visit visit) {
         Vertex* const vertices = vertices_.data();
         const Point* const points = points_.data();
         const auto count = static_cast<Index>(tris_.size());
         const Index fetched = fetched_ahead(count);
         const Tri* const tris = tris_.data();
         for (Index t = 0; t < count; ++t) {
-            const Tri& tri = tris[t];
             fetch_ahead(tris, fetched, t, [&](Index v) {
                 __builtin_prefetch(vertices + v, 1);
                 __builtin_prefetch(points + v);
             });
+            visit(tris[t], t, vertices, points);
+        }
+    }
+
+    /// Finds the facts about each vertex, among them the sum of its neighbours. Each of its triangles contributes one.
+    void find_movers_and_sums() {
+        vertices_.assign(points_.size(), {});
+        states_.assign(points_.size(), State::moved);
+        std::fill(states_.begin(), states_.begin() + first_movable_, State::fixed);
+        visit_triangles([&](const Tri& tri, Index t, Vertex* vertices, const Point* points) {
             for (unsigned i = 0; i < 3; ++i) {
                 Vertex& vertex = vertices[tri.v[i]];
                 vertex.sum = vertex.sum + points[tri.v[next(i)]];
                 vertex.triangle = t;
                 ++vertex.degree;
             }
-            if (!has_constrained_edge(tri)) continue;
+            if (!has_constrained_edge(tri)) return;
             for (unsigned e = 0; e < 3; ++e)
                 if (tri.n[e].is_constrained()) states_[tri.v[next(e)]] = states_[tri.v[previous(e)]] = State::fixed;
-        }
+        });
     }
 
     void add_neighbours() {
-        Vertex* const vertices = vertices_.data();
-        const Point* const points = points_.data();
-        const auto count = static_cast<Index>(tris_.size());
-        const Index fetched = fetched_ahead(count);
-        const Tri* const tris = tris_.data();
-        for (Index t = 0; t < count; ++t) {
-            fetch_ahead(tris, fetched, t, [&](Index v) {
-                __builtin_prefetch(vertices + v, 1);
-                __builtin_prefetch(points + v);
-            });
+        visit_triangles([](const Tri& tri, Index, Vertex* vertices, const Point* points) {
             for (unsigned i = 0; i < 3; ++i) {
-                Vertex& vertex = vertices[tris[t].v[i]];
-                vertex.sum = vertex.sum + points[tris[t].v[next(i)]];
+                Vertex& vertex = vertices[tri.v[i]];
+                vertex.sum = vertex.sum + points[tri.v[next(i)]];
             }
-        }
+        });
     }
 
     /// Moves every free vertex to the mean of its neighbours, and forgets their sum.
