@@ -125,6 +125,7 @@ std::vector<BatchCondition> combinations_of(const std::vector<Sweep>& sweeps) {
 std::vector<BatchCondition> samples_of(const std::vector<SampledOption>& sampled, std::size_t count,
                                        std::uint64_t seed) {
     std::vector<ValueInterval> intervals;
+    intervals.reserve(sampled.size());
     for (const SampledOption& one : sampled) intervals.push_back(one.interval);
     std::vector<BatchCondition> samples;
     for (const std::vector<double>& values : latin_hypercube(intervals, count, seed)) {
@@ -157,7 +158,7 @@ std::vector<BatchCondition> conditions_of_batch(const ConditionArguments& argume
         sampled.push_back(parse_sample(text));
         require_new_option(sampled.back().option, named, "option --sample: '{}' has values already");
     }
-    const std::vector<BatchCondition> combinations = combinations_of(sweeps);
+    std::vector<BatchCondition> combinations = combinations_of(sweeps);
     if (sampled.empty()) return combinations;
     const std::vector<BatchCondition> samples = samples_of(sampled, arguments.number_of_samples, arguments.seed);
     std::vector<BatchCondition> all;

@@ -444,6 +444,7 @@ std::vector<SizeSource> sizes_between(const LineGraph& graph, std::span<const do
     std::vector<std::vector<Point>> pieces = ends_of_pieces(graph);
     add_copies(shifts, pieces);
     std::vector<Box> boxes;
+    boxes.reserve(pieces.size());
     for (const std::vector<Point>& ends : pieces) boxes.push_back(core::bounding_box(ends));
     const core::BoxTree tree(std::move(boxes));
     std::vector<SizeSource> sources;
