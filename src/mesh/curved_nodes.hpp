@@ -1,7 +1,6 @@
 // The nodes of one curved cell.
 #pragma once
 
-#include <array>
 #include <span>
 
 #include <lamina/curved_mesh.hpp>
@@ -11,8 +10,6 @@
 
 namespace lamina::mesh {
 
-using CellNodes = std::array<Point, nodes_of_cell(4, max_cell_order)>;
-
 /// Returns the numbers of the nodes of a cell beside its corners.
 inline std::span<const VertexId> inner_nodes(const MeshView& mesh, const CurvedNodes& nodes, std::size_t cell) {
     const std::size_t triangles = mesh.triangles.size(), corners = cell < triangles ? 3 : 4;
@@ -21,15 +18,13 @@ inline std::span<const VertexId> inner_nodes(const MeshView& mesh, const CurvedN
                             : std::span(nodes.quad_nodes).subspan((cell - triangles) * count, count);
 }
 
-/// Puts the nodes of a cell into `places`, in the order of CurvedNodes, and returns them. Precondition: their numbers are in
-/// range.
-inline std::span<const Point> gather_nodes(const MeshView& mesh, const CurvedNodes& nodes, std::size_t cell,
-                                           CellNodes& places) {
+/// Calls f(i, place) for the nodes of a cell, in the order of CurvedNodes. Precondition: their numbers are in range.
+template <class F>
+void for_each_node(const MeshView& mesh, const CurvedNodes& nodes, std::size_t cell, F&& f) {
     const CellEdges cells(mesh);
     std::size_t n = 0;
-    for (std::size_t i = 0; i < cells.corners(cell); ++i) places[n++] = mesh.points[cells.corner(cell, i).index()];
-    for (const VertexId v : inner_nodes(mesh, nodes, cell)) places[n++] = nodes.points[v.index() - mesh.points.size()];
-    return std::span(places).first(n);
+    for (std::size_t i = 0; i < cells.corners(cell); ++i) f(n++, mesh.points[cells.corner(cell, i).index()]);
+    for (const VertexId v : inner_nodes(mesh, nodes, cell)) f(n++, nodes.points[v.index() - mesh.points.size()]);
 }
 
 /// Returns the point of an edge of order p at the parameter t, by Lagrange's polynomials of its p + 1 evenly spaced nodes.

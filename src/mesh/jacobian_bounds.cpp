@@ -519,19 +519,6 @@ JacobianBounds bounds_of(const DeterminantRule& rule, const Determinants& determ
 
 }  // namespace
 
-void JacobianBatch::add(std::span<const Point> nodes) {
-    assert(size < capacity);
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-        if (size == 0) {  // lanes of no cell are copies of the first
-            x[i] = nodes[i].x - Lanes{};
-            y[i] = nodes[i].y - Lanes{};
-        }
-        x[i][size] = nodes[i].x;
-        y[i][size] = nodes[i].y;
-    }
-    ++size;
-}
-
 std::array<JacobianBounds, JacobianBatch::capacity> bound_jacobians(unsigned corners, unsigned order,
                                                                     const JacobianBatch& batch) {
     const DeterminantRule& rule = rule_of(corners, order);
@@ -545,7 +532,8 @@ std::array<JacobianBounds, JacobianBatch::capacity> bound_jacobians(unsigned cor
 JacobianBounds bound_jacobian(unsigned corners, unsigned order, std::span<const Point> nodes) {
     assert(nodes.size() == nodes_of_cell(corners, order));
     JacobianBatch batch;
-    batch.add(nodes);
+    for (std::size_t i = 0; i < nodes.size(); ++i) batch.put(i, nodes[i]);
+    batch.add_cell();
     return bound_jacobians(corners, order, batch)[0];
 }
 

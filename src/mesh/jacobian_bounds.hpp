@@ -46,8 +46,18 @@ struct JacobianBatch {
     std::array<Lanes, nodes_of_cell(4, max_cell_order)> x, y;  ///< coordinates, node by node
     std::size_t size = 0;                                      ///< number of cells
 
-    /// Adds a cell. Precondition: size < capacity.
-    void add(std::span<const Point> nodes);
+    /// Puts a node of the cell that add_cell() adds. Lanes of no cell are copies of the first one. Precondition: size < capacity.
+    void put(std::size_t node, Point p) {
+        if (size == 0) {
+            x[node] = p.x - Lanes{};
+            y[node] = p.y - Lanes{};
+        } else {
+            x[node][size] = p.x;
+            y[node][size] = p.y;
+        }
+    }
+    /// Adds the cell all of whose nodes have been put.
+    void add_cell() { ++size; }
 };
 
 /// Does what bound_jacobian() does for each cell of a batch, all with 3 or 4 corners.

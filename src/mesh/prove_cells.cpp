@@ -46,12 +46,13 @@ CellProofs prove_cells(const MeshView& mesh, const CurvedNodes& nodes) {
     const CellEdges cells(mesh);
     const auto blocks = core::parallel_blocks(cells.cells(), cells_per_block, [&](std::size_t begin, std::size_t end) {
         CellProofs block;
-        CellNodes places;
         for (std::size_t cell = begin; cell < end;) {
             const std::size_t first = cell, corners = cells.corners(cell);
             JacobianBatch batch;
-            while (cell < end && batch.size < JacobianBatch::capacity && cells.corners(cell) == corners)
-                batch.add(gather_nodes(mesh, nodes, cell++, places));
+            while (cell < end && batch.size < JacobianBatch::capacity && cells.corners(cell) == corners) {
+                for_each_node(mesh, nodes, cell++, [&](std::size_t i, Point place) { batch.put(i, place); });
+                batch.add_cell();
+            }
             const auto bounds = bound_jacobians(static_cast<unsigned>(corners), nodes.order, batch);
             for (std::size_t i = 0; i < batch.size; ++i) add_proof(first + i, bounds[i], block);
         }

@@ -161,7 +161,8 @@ TEST(JacobianBounds, OfSeveralCellsAreThoseOfEach) {
                 for (std::size_t i = 0; i < size; ++i) {
                     cells.push_back(points_of(random_cell(corners, p, random)));
                     if (random.below(10) == 0) cells.back()[0] = {1e200, 1e200};  // of which nothing is proved
-                    batch.add(cells.back());
+                    for (std::size_t n = 0; n < cells.back().size(); ++n) batch.put(n, cells.back()[n]);
+                    batch.add_cell();
                 }
                 const auto bounds = bound_jacobians(corners, p, batch);
                 for (std::size_t i = 0; i < size; ++i) {

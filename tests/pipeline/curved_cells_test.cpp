@@ -392,11 +392,12 @@ TEST(CurvedCells, AreWrittenAsMfemNumbersTheirNodes) {
         EXPECT_FALSE(in >> word);
         const std::size_t within = order - 1;
         std::size_t inside = mesh.points.size() + edges.size() * within;
-        mesh::CellNodes nodes;
         for (std::size_t cell = 0; cell < cells.size(); ++cell) {
             const std::vector<std::size_t>& corners = cells[cell];
             const auto n = static_cast<unsigned>(corners.size());
-            const auto expected = mesh::gather_nodes(mesh, result.curved, cell, nodes);
+            std::vector<Point> expected;
+            mesh::for_each_node(mesh, result.curved, cell,
+                                [&](std::size_t, Point place) { expected.push_back(place); });
             const auto lattice = mesh::lattice_of_cell(n, order);
             for (std::size_t i = 0; i < n; ++i) {
                 EXPECT_EQ(places[corners[i]], expected[i]);
