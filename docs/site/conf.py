@@ -92,8 +92,8 @@ def write_reference(app):
 
 
 def as_text(app, what, name, of, options, lines):
-    """Makes docstrings, plain text with code in single backquotes, underlined headings and indented drawings, what Sphinx
-    reads."""
+    """Makes docstrings what Sphinx reads: plain text with code in single backquotes, underlined headings and indented
+    drawings."""
     for i, line in enumerate(lines):
         if line.endswith(":") and lines[i + 1:i + 2] == [""] and lines[i + 2].startswith("    "):
             lines[i] = line = line + ":"
