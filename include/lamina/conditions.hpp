@@ -46,8 +46,8 @@ struct ReferenceConditions {
 };
 
 /// Returns the conditions of the flow round bodies in this box. The chord is the extent of the box in x unless it is
-/// given. The Reynolds number is the given one, or velocity x chord / viscosity. Throws as validate() does, and OptionError
-/// for a chord that is to be that of an element: reference_conditions() of geometry.hpp knows them.
+/// given. The Reynolds number is the given one, or velocity x chord / viscosity. Throws as validate() does, and
+/// OptionError for a chord that is to be that of an element: reference_conditions() of geometry.hpp knows them.
 LAMINA_EXPORT ReferenceConditions reference_conditions(const FlowConditions& conditions, const Box& bodies);
 
 }  // namespace lamina

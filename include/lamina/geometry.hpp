@@ -104,8 +104,8 @@ struct Geometry {
     /// The box round the elements without GeometryOptions' rotations and flaps, whose width is the chord. Empty where
     /// nothing is turned, and where the configuration stood upright.
     std::optional<Box> unturned_box{};
-    /// The boxes round all elements and sheets of make_geometry(), likewise without rotations and flaps, and before they
-    /// are joined or cut: what the chord of an element is found by.
+    /// The boxes round all elements and sheets of make_geometry(), likewise without rotations and flaps, and before
+    /// they are joined or cut: what the chord of an element is found by.
     std::vector<ElementBox> unturned_elements{};
     std::optional<double> symmetry{};  ///< the line of symmetry y = Y that cut_at_symmetry() cut the bodies at
     std::optional<double> pitch{};     ///< distance along y of the copies in a row, as blade_row() rounded it
@@ -125,9 +125,9 @@ LAMINA_EXPORT Geometry blade_row(Geometry geometry, double pitch, double stagger
 LAMINA_EXPORT Box bounding_box(const Geometry& geometry);  ///< the box round all elements
 /// Returns the box whose width is the reference chord: Geometry::unturned_box, else bounding_box().
 LAMINA_EXPORT Box reference_box(const Geometry& geometry);
-/// Returns the conditions of the flow round bodies, as reference_conditions() of a box does. The chord is the given one, or
-/// the extent in x of FlowConditions::chord_element, or of reference_box(). Throws OptionError for an element that there is
-/// not.
+/// Returns the conditions of the flow round bodies, as reference_conditions() of a box does. The chord is the given
+/// one, or the extent in x of FlowConditions::chord_element, or of reference_box(). Throws OptionError for an element
+/// that there is not.
 LAMINA_EXPORT ReferenceConditions reference_conditions(const FlowConditions& conditions, const Geometry& geometry);
 
 /// The ways to make a blunt trailing edge sharp.

@@ -187,7 +187,8 @@ class Polar(Values):
         >>> list(table)[:3]
         ['alpha', 'cl', 'cd']
         """
-        columns = {f.name: getattr(self, f.name) for f in fields(self) if f.name not in ("name", "reynolds", "mach", "undisplaced")}
+        of_all = ("name", "reynolds", "mach", "undisplaced")
+        columns = {f.name: getattr(self, f.name) for f in fields(self) if f.name not in of_all}
         try:
             import pandas  # type: ignore[import-untyped, unused-ignore]
         except ImportError:

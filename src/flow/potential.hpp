@@ -23,8 +23,9 @@ inline constexpr double max_flow_leak = 0.02;
 /// (docs/decisions/0036).
 inline constexpr double friction_rise_at_corners = 3.2;
 
-/// Returns the momentum thickness far behind a side, by Squire and Young. It follows from the last place where the layer is
-/// attached: at the trailing edge itself the speed of potential flow falls to rest, which that of viscous flow does not.
+/// Returns the momentum thickness far behind a side, by Squire and Young. It follows from the last place where the
+/// layer is attached: at the trailing edge itself the speed of potential flow falls to rest, which that of viscous flow
+/// does not.
 LAMINA_EXPORT double momentum_far_behind(const std::vector<FlowPoint>& side);
 
 /// Returns the pressure coefficient of subsonic flow of this Mach number where incompressible flow has `incompressible`,

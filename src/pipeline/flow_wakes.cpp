@@ -19,10 +19,10 @@ namespace {
 
 /// Length of the wakes, and of layers along them, in chords of the configuration.
 constexpr double wake_length = 20, layered_length = 2;
-/// Number of edges across a wake, and across its inner part. There are fewer behind all elements and the mixing layers of a base,
-/// where the speed changes by no more than this from one to the next, over the free stream's: the velocity defect of a plane
-/// wake over its width is 0.86 over the distance, whatever the drag is (H. Schlichting, Boundary-Layer Theory, 7th ed. (1979),
-/// section 24.5), so that sizes grow as the distance.
+/// Number of edges across a wake, and across its inner part. There are fewer behind all elements and the mixing layers
+/// of a base, where the speed changes by no more than this from one to the next, over the free stream's: the velocity
+/// defect of a plane wake over its width is 0.86 over the distance, whatever the drag is (H. Schlichting,
+/// Boundary-Layer Theory, 7th ed. (1979), section 24.5), so that sizes grow as the distance.
 constexpr double edges_across = 10, change_of_speed = 0.0135, growth_behind = change_of_speed / 0.86;
 /// At either edge of a wake, triangles may grow over this share of its width.
 constexpr double outer_share = 0.15;
@@ -75,7 +75,8 @@ struct MeasuredLine {
     }
 };
 
-/// Streamlines need be no more exact than sizes are. Those that only tell widths, and far behind all, have longer steps.
+/// Streamlines need be no more exact than sizes are. Those that only tell widths, and far behind all, have longer
+/// steps.
 constexpr StreamlineOptions rough{.tolerance = 1e-5}, rougher{.tolerance = 1e-4, .max_step = 0.25};
 
 void append_streamline(const Flow& flow, double length, const StreamlineOptions& options, MeasuredLine& line) {
@@ -130,9 +131,9 @@ double at_rest_behind(const FlowPoint& end) {
     return std::max(end.displacement - flow::separation_shape * end.momentum, 0.0);
 }
 
-/// Returns the width of the wake: that of a plane wake that begins as wide as the base and both layers, with the momentum
-/// thickness far behind, or of the trailing edge where that is less: in front of other elements. Besides, separated layers go
-/// on to spread by the fluid at rest below them.
+/// Returns the width of the wake: that of a plane wake that begins as wide as the base and both layers, with the
+/// momentum thickness far behind, or of the trailing edge where that is less: in front of other elements. Besides,
+/// separated layers go on to spread by the fluid at rest below them.
 double wake_width(const ElementFlow& element, double behind) {
     const FlowPoint &above = element.upper.back(), &below = element.lower.back();
     double momentum = 0;
@@ -271,7 +272,8 @@ std::vector<ElementWake> wakes_of_flow(const Flow& flow, double fineness) {
         const auto width = [&](double s) { return wake_width(element, s); };
         const double split = std::min(inner.split_length, line.s.back()),
                      rear = std::max(length_to_rear(flow, line), split);
-        // The size and the radius on a part of the wake that begins behind a length, and whether it is finer than the whole.
+        // The size and the radius on a part of the wake that begins behind a length, and whether it is finer than the
+        // whole.
         const auto size_of = [&](const auto& width_at, double begin) {
             return [&, width_at, begin](double s) {
                 const double far = growth_behind * std::max(begin + s - rear, 0.0);

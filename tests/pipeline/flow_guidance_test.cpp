@@ -284,9 +284,9 @@ double behind_all(const Flow& flow, const pipeline::ElementWake& wake, double be
     return begins - length;
 }
 
-/// Sizes on a wake are a tenth of its width, and far behind all elements grow as the distance. The width is that of a plane
-/// wake, whose square grows linearly from the trailing edge on, and that of the fluid at rest, over which mixing layers spread.
-/// The inner wake widens linearly, as much as a mixing layer where much fluid is at rest.
+/// Sizes on a wake are a tenth of its width, and far behind all elements grow as the distance. The width is that of a
+/// plane wake, whose square grows linearly from the trailing edge on, and that of the fluid at rest, over which mixing
+/// layers spread. The inner wake widens linearly, as much as a mixing layer where much fluid is at rest.
 TEST(FlowGuidance, SizesOfWakesFollowTheLawsOfTheirWidths) {
     bool some_attached = false, some_separated = false;
     for (const double alpha_deg : {0.0, 6.0, 15.0}) {
@@ -341,8 +341,8 @@ std::size_t triangles_on(const Mesh& mesh, Point a, Point b) {
         }));
 }
 
-/// A line across the wake meets at least ten triangles up to three chords behind the trailing edge, six up to ten and four up
-/// to twenty, as a mean over a tenth of the way.
+/// A line across the wake meets at least ten triangles up to three chords behind the trailing edge, six up to ten and
+/// four up to twenty, as a mean over a tenth of the way.
 TEST(FlowGuidance, TrianglesResolveWakesFarBehind) {
     const Geometry geometry = shapes::geometry({naca("2412", 160)});
     for (const double reynolds : {1e6, 6e6}) {

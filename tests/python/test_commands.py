@@ -169,9 +169,10 @@ def test_polar_is_that_of_the_program(program, tmp_path):
     assert polar.alpha.tolist() == [-2, 2, 6] and polar.steady.all() and np.isnan(polar.y_plus).all()
     assert 0.05 < polar.top_xtr.min() and polar.top_xtr.max() < 0.1001
     assert not polar.undisplaced and not written.undisplaced
-    two = lamina.polar(["naca:0012", "naca:0012"], names=["a", "b"], transform="b:shift:2,0", alpha="0:2:2", reynolds=3e6)
+    two = lamina.polar(["naca:0012"] * 2, names=["a", "b"], transform="b:shift:2,0", alpha="0:2:2", reynolds=3e6)
     assert two.undisplaced
-    (tmp_path / "polar.json").write_text('{"name": "a", "reynolds": null, "mach": null, "undisplaced": true, "rows": []}')
+    of_two = '{"name": "a", "reynolds": null, "mach": null, "undisplaced": true, "rows": []}'
+    (tmp_path / "polar.json").write_text(of_two)
     assert lamina.read_polar(tmp_path).undisplaced
     # Rows are those of single angles, each found from another one.
     alone = lamina.flow("naca:2412", alpha=6, reynolds=3e6, trip=0.1)
