@@ -94,8 +94,9 @@ struct Element {
 
 /// Where an element lies.
 struct ElementBox {
-    std::string name, given_name;  ///< of the element
-    Box box;
+    std::string name;        ///< of the element
+    std::string given_name;  ///< that it came with
+    Box box;                 ///< round its points
 };
 
 /// Bodies that are closed, simple and pairwise disjoint.
