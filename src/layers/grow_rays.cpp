@@ -101,6 +101,14 @@ RayLine image_of_ray(const RayLine& ray, const RayLine& before, double y) {
     return image;
 }
 
+/// Returns a ray that lies in the line of symmetry, forwards or backwards.
+RayLine ray_in_line(RayLine ray, double direction) {
+    ray.direction = {direction, 0};
+    ray.corner_after.clear();
+    ray.on_symmetry = true;
+    return ray;
+}
+
 /// Makes the rays of a body with a line of symmetry images of each other. Those that stand where the line meets the body,
 /// the first one and the last one above, lie in the line. Rays of a wake along the line come first, from its end on.
 /// Returns how many rays are not below it.
@@ -128,18 +136,11 @@ std::size_t mirror_rays(const Element& element, double y, std::vector<RayLine>& 
         const bool in_fan = rays[(i + 1) % rays.size()].origin == ray.origin || !is_first ||
                             rays[(i + rays.size() - 1) % rays.size()].origin == ray.origin;
         const bool is_tail = ray.origin == tail;
-        const auto add_on_line = [&] {
+        if (is_tail && is_first) above.push_back(ray_in_line(ray, 1));
+        if (in_fan && ray.direction.y > rounding)
             above.push_back(ray);
-            above.back().direction = {is_tail ? 1.0 : -1.0, 0};
-            above.back().corner_after.clear();
-            above.back().on_symmetry = true;
-        };
-        if (is_tail && is_first) add_on_line();
-        if (in_fan && ray.direction.y > rounding) {
-            above.push_back(ray);
-        } else if (!is_tail && !above.back().on_symmetry) {
-            add_on_line();
-        }
+        else if (!is_tail && !above.back().on_symmetry)
+            above.push_back(ray_in_line(ray, -1));
     }
     const std::size_t shown = above.size();
     above.back().corner_after = image_of_ray(above.back(), above[shown - 2], y).corner_after;
@@ -352,7 +353,7 @@ RaySet bare_walls(const Walls& walls, std::vector<std::size_t>& shown) {
 }  // namespace
 
 Rays grow_rays(const Geometry& geometry, const LayerOptions& options, const LayerGrowth& growth,
-               std::span<const OuterWall> outer_walls, const Obstacles& obstacles, PlaceOnWall place_on_wall) {
+               std::span<const OuterWall> outer_walls, const Obstacles& obstacles, const PlaceOnWall& place_on_wall) {
     validate(options);
     const Walls walls{geometry, outer_walls, obstacles, place_on_wall};
     const std::vector<std::size_t> with_images = walls.with_images();

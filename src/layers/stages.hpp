@@ -202,7 +202,7 @@ struct Obstacles {
 /// stand on curved walls, and so do points that divide their edges later.
 Rays grow_rays(const Geometry& geometry, const LayerOptions& options, const LayerGrowth& growth,
                std::span<const OuterWall> outer_walls = {}, const Obstacles& obstacles = {},
-               PlaceOnWall place_on_wall = {});
+               const PlaceOnWall& place_on_wall = {});
 
 /// A circle.
 struct Circle {

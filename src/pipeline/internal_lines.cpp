@@ -511,32 +511,44 @@ std::vector<double> heights_at_feet(const LineGraph& graph, const layers::Rays& 
     return heights;
 }
 
+namespace {
+
+/// Adds a piece of a line, which stops short of vertices by this gap, or above these heights of the layer at its ends, and the
+/// feet at these.
+void add_piece(const LineGraph& graph, const Segment& piece, double gap, std::span<const double> at_feet,
+               std::optional<double> symmetry, layers::Obstacles& obstacles) {
+    constexpr double above_layer = 1.1;
+    std::array<Point, 2> ends{graph.points[piece.a.index()], graph.points[piece.b.index()]}, on_line{};
+    const Point along = unit(ends[1] - ends[0]);
+    for (const int end : {0, 1}) {
+        const VertexId v = end == 0 ? piece.a : piece.b;
+        const Point away = (end == 0 ? 1.0 : -1.0) * along;
+        const double height = at_feet[v.index()];
+        const bool is_on_line = symmetry && graph.on_border[v.index()] && graph.points[v.index()].y == *symmetry;
+        if (height > 0) obstacles.feet.push_back({graph.points[v.index()], away, height});
+        if (is_on_line && !(height > 0))
+            on_line[end] = gap * away;
+        else
+            ends[end] = ends[end] + (height > 0 ? above_layer * height : gap) * away;
+    }
+    if (symmetry)
+        add_with_image(ends, on_line, *symmetry, obstacles);
+    else
+        obstacles.outlines.push_back({ends[0], ends[1]});
+}
+
+}  // namespace
+
 layers::Obstacles obstacles_of(const LineGraph& graph, double first_height, std::span<const double> at_feet,
                                std::optional<double> symmetry, std::span<const double> shifts) {
-    constexpr double gap_share = 0.1, above_layer = 1.1;
+    constexpr double gap_share = 0.1;
     layers::Obstacles obstacles;
     for (std::size_t v = 0; v < graph.points.size(); ++v)
         if ((graph.on_wall[v] || graph.on_border[v]) && !(at_feet[v] > 0)) obstacles.bare.push_back(graph.points[v]);
     for (const Segment& piece : graph.pieces) {
         const Point a = graph.points[piece.a.index()], b = graph.points[piece.b.index()];
-        const double gap = std::min(gap_share * first_height, 0.25 * distance(a, b));
-        const Point along = unit(b - a);
-        std::array<Point, 2> ends{a, b}, on_line{};
-        for (const int end : {0, 1}) {
-            const VertexId v = end == 0 ? piece.a : piece.b;
-            const Point away = (end == 0 ? 1.0 : -1.0) * along;
-            const double height = at_feet[v.index()];
-            const bool is_on_line = symmetry && graph.on_border[v.index()] && graph.points[v.index()].y == *symmetry;
-            if (height > 0) obstacles.feet.push_back({graph.points[v.index()], away, height});
-            if (is_on_line && !(height > 0))
-                on_line[end] = gap * away;
-            else
-                ends[end] = ends[end] + (height > 0 ? above_layer * height : gap) * away;
-        }
-        if (symmetry)
-            add_with_image(ends, on_line, *symmetry, obstacles);
-        else
-            obstacles.outlines.push_back({ends[0], ends[1]});
+        add_piece(graph, piece, std::min(gap_share * first_height, 0.25 * distance(a, b)), at_feet, symmetry,
+                  obstacles);
     }
     add_copies(shifts, obstacles.outlines);
     return obstacles;

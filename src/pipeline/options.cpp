@@ -289,10 +289,10 @@ SizingOptions wakes_at_angles(SizingOptions sizing, const FlowConditions& condit
 
 SizingOptions sizes_between_borders(SizingOptions sizing, const FarFieldOptions& far_field, double chord,
                                     double fineness) {
-    constexpr double edges_across = 20;
+    constexpr double edges_between = 20;
     const std::optional<Length>& height = far_field.pitch ? far_field.pitch : far_field.tunnel;
     if (height && !sizing.far_size)
-        sizing.far_size = Length{in_units(*height, chord) / (edges_across * fineness), LengthUnit::input};
+        sizing.far_size = Length{in_units(*height, chord) / (edges_between * fineness), LengthUnit::input};
     return sizing;
 }
 

@@ -169,6 +169,21 @@ private:
         }
     }
 
+    /// Returns the first ray of the way out along the wake of an element, and the last one of the way back: the latter twice
+    /// where half of it is above a line of symmetry.
+    std::pair<std::size_t, std::size_t> ends_of_wake(std::size_t element) const {
+        const auto on_wall = [&](std::size_t ray) { return set_.lines[ray].place == RayPlace::wall; };
+        if (rays_.is_open(element)) {
+            std::size_t back = set_.begin[element];
+            while (!on_wall(back + 1)) ++back;
+            return {back, back};
+        }
+        const std::size_t back = set_.begin[element + 1] - 1;
+        std::size_t out = back;
+        while (!on_wall(out - 1)) --out;
+        return {out, back};
+    }
+
     /// Places the inner points of cores, and gathers those that have vertices already: on the base and at stations.
     void place_cores() {
         for (const WakeCore& core : rays_.cores) {
@@ -178,11 +193,7 @@ private:
             // Vertex k of the wake is the origin of ray out + k and of ray back - k; of the latter alone where half of
             // it is above a line of symmetry, on which chains begin then.
             const bool is_half = rays_.is_open(core.element);
-            std::size_t back = set_.begin[core.element + 1] - 1;
-            if (is_half)
-                for (back = set_.begin[core.element]; set_.lines[back + 1].place != RayPlace::wall;) ++back;
-            std::size_t out = back;
-            while (!is_half && set_.lines[out - 1].place != RayPlace::wall) --out;
+            const auto [out, back] = ends_of_wake(core.element);
             std::size_t k = 0;
             for (std::size_t c = 1; c < core.chains.size(); ++c) {
                 const bool station = core.stations[k] == c;
