@@ -1,7 +1,6 @@
 #include "app/child_process.hpp"
 
 #include <fcntl.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -14,8 +13,6 @@
 #include <fmt/format.h>
 
 #include <lamina/error.hpp>
-
-extern char** environ;
 
 namespace lamina::app {
 
@@ -63,36 +60,61 @@ fs::path find_program(const std::string& word) {
 
 namespace {
 
-/// How a program is started: where its streams go, and which signals it knows of.
-class SpawnSettings {
-public:
-    SpawnSettings(const fs::path& folder, const fs::path& log) {
-        posix_spawn_file_actions_init(&actions);
-        posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-        posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
-        posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
-        posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
-        posix_spawnattr_init(&attributes);
-        sigset_t none, ignored_here;
-        sigemptyset(&none);
-        sigemptyset(&ignored_here);
-        sigaddset(&ignored_here, SIGPIPE);
-        sigaddset(&ignored_here, SIGXFSZ);
-        posix_spawnattr_setsigmask(&attributes, &none);
-        posix_spawnattr_setsigdefault(&attributes, &ignored_here);
-        posix_spawnattr_setpgroup(&attributes, 0);
-        posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
+/// Lets the signals that are handled here do what they do by themselves, and no signal wait. Two are ignored here.
+void forget_signals() {
+    for (int number = 1; number < NSIG; ++number) {
+        struct sigaction now {};
+        const bool is_known = ::sigaction(number, nullptr, &now) == 0;
+        if (is_known && (now.sa_handler != SIG_IGN || number == SIGPIPE || number == SIGXFSZ))
+            std::signal(number, SIG_DFL);
     }
-    ~SpawnSettings() {
-        posix_spawn_file_actions_destroy(&actions);
-        posix_spawnattr_destroy(&attributes);
-    }
-    SpawnSettings(const SpawnSettings&) = delete;
-    SpawnSettings& operator=(const SpawnSettings&) = delete;
+    sigset_t none;
+    sigemptyset(&none);
+    ::sigprocmask(SIG_SETMASK, &none, nullptr);
+}
 
-    posix_spawn_file_actions_t actions{};
-    posix_spawnattr_t attributes{};
-};
+/// Becomes the program, in this folder and in a group of its own, with its streams in the log. Returns only where that
+/// fails, with errno. Calls nothing that another thread of the program before could have locked.
+void become(char* const* arguments, const char* folder, const char* log) {
+    const int input = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
+    const int output = ::open(log, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (input < 0 || output < 0 || ::dup2(input, STDIN_FILENO) < 0 || ::dup2(output, STDOUT_FILENO) < 0 ||
+        ::dup2(output, STDERR_FILENO) < 0 || ::chdir(folder) != 0)
+        return;
+    ::setpgid(0, 0);
+    forget_signals();
+    ::execv(arguments[0], arguments);
+}
+
+/// Starts a program and returns its process. Throws IoError where that fails. fork() stands here in place of posix_spawn(),
+/// which can change folders since version 2.29 of the C library alone.
+pid_t start(const std::vector<char*>& arguments, const fs::path& folder, const fs::path& log) {
+    const auto refuse = [&](int error) {
+        throw IoError(arguments.front(), std::string("cannot be run: ") + std::strerror(error));
+    };
+    int report[2];  // closed by execv(), or given the number of an error
+    if (::pipe(report) != 0) refuse(errno);
+    for (const int end : report) ::fcntl(end, F_SETFD, FD_CLOEXEC);
+    // A signal between both would run what this program does with it, in the other process.
+    sigset_t all, before;
+    sigfillset(&all);
+    ::pthread_sigmask(SIG_SETMASK, &all, &before);
+    const pid_t process = ::fork();
+    if (process == 0) {
+        become(arguments.data(), folder.c_str(), log.c_str());
+        const int error = errno;
+        const ssize_t written = ::write(report[1], &error, sizeof error);
+        ::_exit(written == sizeof error ? 127 : 126);
+    }
+    int error = process < 0 ? errno : 0;
+    ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+    ::close(report[1]);
+    while (process > 0 && ::read(report[0], &error, sizeof error) < 0 && errno == EINTR) continue;
+    ::close(report[0]);
+    if (process > 0 && error != 0) ::waitpid(process, nullptr, 0);
+    if (error != 0) refuse(error);
+    return process;
+}
 
 }  // namespace
 
@@ -103,11 +125,7 @@ int run_program_in(const fs::path& folder, const std::vector<std::string>& words
     arguments.reserve(copies.size() + 1);
     for (std::string& word : copies) arguments.push_back(word.data());
     arguments.push_back(nullptr);
-    const SpawnSettings settings(folder, fs::absolute(log));
-    pid_t process = 0;
-    const int error =
-        posix_spawn(&process, arguments.front(), &settings.actions, &settings.attributes, arguments.data(), environ);
-    if (error != 0) throw IoError(words.front(), std::string("cannot be run: ") + std::strerror(error));
+    const pid_t process = start(arguments, folder, fs::absolute(log));
     guard.take_along(process);
     int status = 0;
     pid_t ended = 0;
