@@ -123,8 +123,8 @@ void subtract_columns(const Panel& panel, const Front& front, std::size_t begin,
 }  // namespace
 
 bool factor_panel(Panel panel, std::vector<double>& below) {
-    const std::size_t rows_below = panel.rows - panel.columns;
-    assert(panel.values.size() == panel.rows * panel.columns && below.size() == rows_below * rows_below);
+    assert(panel.values.size() == panel.rows * panel.columns);
+    assert(below.size() == (panel.rows - panel.columns) * (panel.rows - panel.columns));
     const Front front(panel, below);
     for (std::size_t begin = 0; begin < panel.columns; begin += columns_at_once) {
         const std::size_t end = std::min(begin + columns_at_once, panel.columns);
