@@ -92,7 +92,7 @@ struct Element {
     std::vector<SheetSides> sheets{};  ///< the sheet that it is, or those that stand on it
 };
 
-/// Where an element lies.
+/// An element and the box round its points.
 struct ElementBox {
     std::string name;        ///< of the element
     std::string given_name;  ///< that it came with

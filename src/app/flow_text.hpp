@@ -13,7 +13,7 @@
 
 namespace lamina::app {
 
-/// What the command writes and prints.
+/// The flow as `lamina flow` writes it (a table and curves of pressure) and prints it (a summary).
 struct FlowText {
     std::string table, summary;
     std::vector<ChartCurve> curves;

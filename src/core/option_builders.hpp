@@ -78,26 +78,19 @@ public:
     template <class Member, class RangeMember>
     Option<Options>& number_or_range(const std::string& name, std::string metavar, std::string help, OptionRange range,
                                      Member member, RangeMember range_member) {
-        Option<Options>& option = number(name, std::move(metavar), std::move(help), range, member);
-        option.kind = OptionKind::number_or_range;
-        const auto set_number = option.set;
-        const auto get_number = option.get;
-        option.set = [=, key = option.key()](Options& o, const OptionValue& value) {
-            const auto* word = std::get_if<std::string>(&value);
-            if (!word) {
-                set_number(o, value);
-                range_member(o).reset();
-                return;
-            }
-            const std::vector<double> values = values_of(*(range_member(o) = as_range(value, key)));
+        const std::string key = option_key(name);
+        const auto set_range = [=](Options& o, const std::string& text) {
+            const std::vector<double> values = values_of(*(range_member(o) = as_range(text, key)));
             for (const double number : values) require_in_range(range, number, key);
             member(o) = values[values.size() / 2];
         };
-        option.get = [=](const Options& o) -> std::optional<OptionValue> {
-            if (range_member(o)) return range_text(*range_member(o));
-            return get_number(o);
+        const auto range_of = [=](const Options& o) -> std::optional<OptionValue> {
+            if (!range_member(o)) return {};
+            return range_text(*range_member(o));
         };
-        return option;
+        return with_words(
+            number(name, std::move(metavar), std::move(help), range, member), OptionKind::number_or_range, set_range,
+            [=](Options& o) { range_member(o).reset(); }, range_of);
     }
 
     /// Adds an option that takes a number, or a word in its place; member(options) is an optional double, and
@@ -105,22 +98,18 @@ public:
     template <class Member, class WordMember>
     Option<Options>& number_or_word(const std::string& name, std::string metavar, std::string help, OptionRange range,
                                     Member member, WordMember word_member) {
-        Option<Options>& option = number(name, std::move(metavar), std::move(help), range, member);
-        option.kind = OptionKind::number_or_word;
-        const auto set_number = option.set;
-        const auto get_number = option.get;
-        option.set = [=, key = option.key()](Options& o, const OptionValue& value) {
-            const auto* word = std::get_if<std::string>(&value);
-            if (word && word->empty()) throw OptionError(key, "must be a number or a word");
-            if (!word) set_number(o, value);
-            if (word) member(o).reset();
-            word_member(o) = word ? *word : std::string();
+        const auto set_word = [=, key = option_key(name)](Options& o, const std::string& word) {
+            if (word.empty()) throw OptionError(key, "must be a number or a word");
+            member(o).reset();
+            word_member(o) = word;
         };
-        option.get = [=](const Options& o) -> std::optional<OptionValue> {
-            const std::optional<OptionValue> number = get_number(o);
-            return number || word_member(o).empty() ? number : std::optional<OptionValue>(word_member(o));
+        const auto word_of = [=](const Options& o) -> std::optional<OptionValue> {
+            if (word_member(o).empty()) return {};
+            return word_member(o);
         };
-        return option;
+        return with_words(
+            number(name, std::move(metavar), std::move(help), range, member), OptionKind::number_or_word, set_word,
+            [=](Options& o) { word_member(o).clear(); }, word_of);
     }
 
     /// Adds an option that takes a length; member(options) is a Length or an optional of one.
@@ -273,6 +262,24 @@ public:
 private:
     std::string group_;
     OptionTable<Options> table_;
+
+    /// Lets an option that takes a number take words, too. `set_word(options, word)` stores one, `forget_word(options)` drops it
+    /// for a number, and `word_of(options)` returns the value that stands for one, if there is one.
+    template <class SetWord, class ForgetWord, class WordOf>
+    static Option<Options>& with_words(Option<Options>& option, OptionKind kind, SetWord set_word,
+                                       ForgetWord forget_word, WordOf word_of) {
+        option.kind = kind;
+        option.set = [=, set_number = option.set](Options& o, const OptionValue& value) {
+            if (const auto* word = std::get_if<std::string>(&value)) return set_word(o, *word);
+            set_number(o, value);
+            forget_word(o);
+        };
+        option.get = [=, number_of = option.get](const Options& o) {
+            const std::optional<OptionValue> word = word_of(o);
+            return word ? word : number_of(o);
+        };
+        return option;
+    }
 
     // These functions are never defined: their result is the type of a number, or of the number in an optional.
     template <class Number>

@@ -8,9 +8,7 @@
 
 #include <lamina/layers.hpp>
 
-#include "core/angles.hpp"
 #include "core/bounding_box.hpp"
-#include "core/reproducible_math.hpp"
 #include "geometry/row.hpp"
 #include "geometry/symmetry.hpp"
 #include "layers/directions/corners.hpp"
@@ -76,14 +74,13 @@ const LineFoot* foot_at(Point vertex, std::span<const LineFoot> feet) {
 /// Adds the rays of an outer wall or of an obstacle, as a closed outline: normals of its straight parts, and bisectors at
 /// its corners, of which those of outer walls are beyond the domain. Rays at feet run along their lines.
 void add_outline(const std::vector<Point>& p, std::span<const LineFoot> feet, RaySet& set) {
-    const double least_cosine = core::cos_reproducible(core::radians(most_lean_of_line_deg));
     for (std::size_t i = 0; i < p.size(); ++i) {
         const Point before = unit(p[i] - p[i > 0 ? i - 1 : p.size() - 1]);
         const Point after = unit(p[i + 1 < p.size() ? i + 1 : 0] - p[i]);
         const bool is_end = before == -after;  // of a line without thickness
         set.lines.push_back({p[i], is_end ? before : -perpendicular(unit(before + after))});
         const LineFoot* foot = foot_at(p[i], feet);
-        if (!foot || dot(foot->direction, set.lines.back().direction) < least_cosine) continue;
+        if (!foot || !(dot(foot->direction, set.lines.back().direction) > 0)) continue;
         set.lines.back().direction = foot->direction;
         set.lines.back().line_room = foot->room;
     }

@@ -59,9 +59,10 @@ inline constexpr double most_fan_lean_deg = 25, most_given_share = 0.3;
 /// the largest angle from the normals of both edges: cells in all rows at the wall are as skewed as that.
 inline constexpr double most_lean_deg = 45, most_lean_from_normals_deg = 57;
 
-/// Rays along lines that end on a wall lean from the normals of its edges by this angle at most, in degrees: the line
-/// has that angle with the wall whatever rays do. Where it leans farther there is no ray.
-inline constexpr double most_lean_of_line_deg = 75;
+/// Edges of curved walls bend by no more than this share of the layers' height; determinants of curved cells then change by
+/// about as much. Sixteen coarse walls with kept points: in the mean 0.25 of 62 edges are reduced, and the least scaled
+/// Jacobian is 0.28. With 0.1 none of 87, and 0.63; with 0.5 4.4 of 52, and 0.10; without a bound 11 of 44, and 0.07.
+inline constexpr double max_bend_of_walls = 0.25;
 
 /// Cells have no larger angles than this, in degrees, where anything can be done about it: columns end below them, and clefts that
 /// would need them stay open.

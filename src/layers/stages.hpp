@@ -175,7 +175,7 @@ struct OuterWall {
     double thickest = HUGE_VAL;  ///< of its layers up to isotropy, in units of the input
 };
 
-/// Where a line inside the domain ends at a vertex of a wall. The ray there runs along the line, whose edges become
+/// The end of a line inside the domain at a vertex of a wall. The ray there runs along the line, whose edges become
 /// edges of cells of the layer.
 struct LineFoot {
     Point at;         ///< the vertex
@@ -186,8 +186,8 @@ struct LineFoot {
 /// Lines and outlines inside the domain that rays must not reach. They have no layers themselves.
 struct Obstacles {
     std::vector<std::vector<Point>> outlines;  ///< simple and counter-clockwise, or the two ends of a line
-    /// One at most for each vertex. Where the line leans too far, or lies beside a fan, no ray runs along it, and those
-    /// of the vertex have no layers.
+    /// One at most for each vertex. Where the line is behind an edge of the wall, or lies beside a fan, no ray runs along it,
+    /// and those of the vertex have no layers.
     std::vector<LineFoot> feet{};
     std::vector<Point> bare{};  ///< other vertices of walls at which rays have no layers
 };

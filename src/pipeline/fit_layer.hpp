@@ -28,20 +28,20 @@ struct PreparedWalls {
     surface::PreparedSurfaces prepared{};
 };
 
-/// What the layer is to be.
+/// The options of a layer, and how its cells grow.
 struct LayerRequest {
     const LayerOptions& options;
     const DecompositionOptions& decomposition;  ///< of layers of LayerTopology::delaunay
     const layers::LayerGrowth& growth;          ///< that of the options, or of the flow
 };
 
-/// What is round the bodies.
+/// The far field round the bodies, and the lines inside it.
 struct DomainRequest {
     const FarFieldOptions& far_field;
     std::span<const InternalLine> lines;
 };
 
-/// What the edges beyond the layer follow from.
+/// The sizes that edges beyond the layer follow: those asked for, those of wakes, and those of the border of the layer.
 struct OuterSizes {
     SizingOptions options;             ///< with the sources that lines and shocks add to those given
     std::vector<ElementWake> wakes{};  ///< of the flow, one per element or none

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "morphing/morphing_fixtures.hpp"
+#include "support/outline_measures.hpp"
 
 namespace lamina::test {
 
@@ -49,17 +50,6 @@ TEST(WallTargets, FollowTransformationsOfElements) {
     EXPECT_THROW(moved_wall_points(map, unknown), OptionError);
 }
 
-/// Returns the distance of a point from a closed outline.
-double distance_from(std::span<const Point> outline, Point p) {
-    double least = HUGE_VAL;
-    for (std::size_t i = 0; i < outline.size(); ++i) {
-        const Point a = outline[i], edge = outline[(i + 1) % outline.size()] - a;
-        const double share = std::clamp(dot(p - a, edge) / squared_length(edge), 0.0, 1.0);
-        least = std::min(least, distance(p, a + share * edge));
-    }
-    return least;
-}
-
 TEST(WallTargets, KinksMayAppearAndVanish) {
     const std::vector<Transformation> deflection{parse_transformation("airfoil:flap:20:0.7,0")};
     const Geometry plain = make_geometry({naca_airfoil("0012", 400)});
@@ -68,8 +58,8 @@ TEST(WallTargets, KinksMayAppearAndVanish) {
         const Mesh mesh = generate_mesh(from, options_to_morph()).mesh;
         const std::vector<Point> wall = wall_points_on(MorphMap(mesh), onto);
         // No edge of the wall, which are up to 0.02 long, cuts a kink off: one of 20 degrees would lose 0.0017.
-        for (const Point p : wall) EXPECT_LT(distance_from(onto.elements[0].points, p), 1e-4);
-        for (const Point p : onto.elements[0].points) EXPECT_LT(distance_from(wall, p), 2e-4);
+        for (const Point p : wall) EXPECT_LT(distance_to(onto.elements[0].points, p), 1e-4);
+        for (const Point p : onto.elements[0].points) EXPECT_LT(distance_to(wall, p), 2e-4);
     }
 }
 

@@ -31,11 +31,9 @@ Point bisector(Point tangent_before, Point tangent_after, double turning) {
     return turning > 0 ? unit(tangent_before - tangent_after) : unit(tangent_after - tangent_before);
 }
 
-/// Returns the lean of a ray along a line in this direction; nothing where it is too far from the normals of the edges.
+/// Returns the lean of a ray along a line in this direction; nothing where the line is not in front of both edges.
 std::optional<double> lean_of_line(const WallVertex& vertex, Point direction) {
-    const double most = core::radians(most_lean_of_line_deg);
-    for (const Point normal : {vertex.normal_before, vertex.normal_after})
-        if (std::abs(core::angle_between(normal, direction)) > most) return {};
+    if (!(dot(vertex.normal_before, direction) > 0) || !(dot(vertex.normal_after, direction) > 0)) return {};
     return core::angle_between(vertex.bisector, direction);
 }
 
@@ -114,11 +112,10 @@ struct Refinement {
 /// Returns into how many parts the curve of an edge must be divided for each to bend by no more than a share of the layers'
 /// height: cells of higher order follow it, and where the border divides their tops, the bend fades out below.
 std::size_t parts_of_curve(Point from, Point to, const Refinement& refinement) {
-    constexpr double max_bend = 0.25;  // of the height; the determinants of cells then change by about as much
     const std::optional<Point> middle = refinement.place ? refinement.place(from, to, 0.5) : std::nullopt;
     if (!middle || refinement.height <= 0) return 1;
     // Parts of an arc bend by the square of their share of it.
-    const double bend = core::distance_to_segment(*middle, from, to) / (max_bend * refinement.height);
+    const double bend = core::distance_to_segment(*middle, from, to) / (max_bend_of_walls * refinement.height);
     return std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(std::sqrt(bend) - part_slack)));
 }
 
