@@ -1,5 +1,7 @@
 #include "adaptation/error_norm.hpp"
 
+#include <initializer_list>
+
 #include "core/reproducible_math.hpp"
 
 namespace lamina::adaptation {
