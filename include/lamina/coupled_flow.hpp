@@ -1,19 +1,23 @@
-// The flow round one section and its boundary layers solved together: lift, drag and moment before there is a mesh.
+// The flow round bodies and their boundary layers solved together: lift, drag and moment before there is a mesh.
 //
 // Guarantees:
 //  1. Layers and outer flow agree where CoupledFlow::converged; where they do not, the flow is that of solve_flow().
 //  2. The same input gives the same bits on any number of threads.
 // Limits:
-//  1. One section alone, without walls, in incompressible flow. Behind stall, wakes are too narrow, and lift is too large.
+//  1. Incompressible flow outside of rows of blades. Behind stall, wakes are too narrow, and lift is too large. Layers do not merge
+//     in slots.
+//  2. Time grows with the cube of the number of elements up to three: 20 ms for one, 0.2 to 0.5 s for two, 1 to 3 s for three, more
+//     where the flow is reached in steps from another angle.
 // Example:
 //     const Geometry section = make_geometry({naca_airfoil("0012", 200)});
 //     const std::vector<FlowConditions> conditions{{.alpha_deg = 4, .reynolds = 1e6}};
-//     assert(can_be_coupled(section, reference_conditions(conditions[0], section)));
+//     assert(can_be_coupled(reference_conditions(conditions[0], section)));
 //     const CoupledFlow found = solve_coupled_flow(section, conditions).front();
 //     assert(found.converged && found.forces.lift > 0.41 && found.forces.lift < 0.45);
-//     assert(found.forces.drag > 0.006 && found.forces.drag < 0.008 && found.transition_upper < found.transition_lower);
+//     assert(found.forces.drag > 0.006 && found.forces.drag < 0.008 && found.transitions[0].upper < found.transitions[0].lower);
 //
-// Source: M. Drela, M. B. Giles, AIAA J. 25 (1987), 1347-1355; M. Drela, XFOIL, in Low Reynolds Number Aerodynamics (1989).
+// Source: M. Drela, M. B. Giles, AIAA J. 25 (1987), 1347-1355; M. Drela, XFOIL, in Low Reynolds Number Aerodynamics (1989);
+// M. Drela, AIAA paper 90-1470 (1990), for several elements and coves.
 #pragma once
 
 #include <optional>
@@ -36,27 +40,32 @@ struct TransitionOptions {
 /// Throws OptionError for an option out of range.
 LAMINA_EXPORT void validate(const TransitionOptions& options);
 
+/// Where the layers of an element become turbulent, as shares of its extent in x.
+struct TransitionPlaces {
+    double upper = 1, lower = 1;
+};
+
 /// The flow with boundary layers that displace it.
 struct CoupledFlow {
     Flow flow;  ///< speeds, pressures and layers at the nodes of the panels; Flow::panels are those of potential flow
-    FlowForces forces;            ///< drag after Squire and Young at the end of the wake
-    double transition_upper = 1;  ///< where the layer becomes turbulent, as a share of the section's extent in x
-    double transition_lower = 1;  ///< the same on the lower side
-    bool converged = false;       ///< whether layers and flow agree
-    int steps = 0;                ///< of Newton's method
+    FlowForces forces;                            ///< drag after Squire and Young at the ends of the wakes
+    std::vector<TransitionPlaces> transitions{};  ///< per element, where layers and flow agree
+    bool converged = false;                       ///< whether they agree
+    int steps = 0;                                ///< of Newton's method
 };
 
-/// Returns whether layers displace the flow of these bodies: one section without walls, at a Reynolds number at which its
-/// layers do not stay laminar throughout, 1e4 or more.
-LAMINA_EXPORT bool can_be_coupled(const Geometry& geometry, const ReferenceConditions& reference,
-                                  const FlowWalls& walls = {});
+/// Returns whether layers displace the flow: at Reynolds numbers at which they do not stay laminar throughout, 1e4 or more, and
+/// outside of rows of blades.
+LAMINA_EXPORT bool can_be_coupled(const ReferenceConditions& reference, const FlowWalls& walls = {});
 
-/// Returns the flow round one section at each of the conditions. Layers follow the equations of momentum, kinetic energy and
-/// lag of the shear stress, waves grow along the envelope of those of all frequencies, and the wake is one chord long. A flow
-/// that is not found from layers without displacement begins with the last one found. Preconditions: can_be_coupled() at each
-/// of the conditions, and all have the same chord. Throws OptionError for conditions or options out of range.
+/// Returns the flow between walls at each of the conditions. Layers follow the equations of momentum, kinetic energy and lag of
+/// the shear stress, waves grow along the envelope of those of all frequencies, and wakes end one chord behind the rearmost
+/// trailing edge. Walls of coves are faired: points there are not on them. A flow that is not found from layers without
+/// displacement is reached in steps from the last one found. Preconditions: can_be_coupled() at each of the conditions, and all
+/// have the same chord. Throws OptionError for conditions or options out of range.
 LAMINA_EXPORT std::vector<CoupledFlow> solve_coupled_flow(const Geometry& geometry,
                                                           std::span<const FlowConditions> conditions,
-                                                          const TransitionOptions& transition = {});
+                                                          const TransitionOptions& transition = {},
+                                                          const FlowWalls& walls = {});
 
 }  // namespace lamina

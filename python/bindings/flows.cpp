@@ -142,9 +142,9 @@ nb::dict find_flow(const nb::list& given, const OptionValues& values, const Opti
         facts["mach"] = options.conditions.mach ? nb::cast(*options.conditions.mach) : nb::none();
         facts["has_layers"] = found.has_layers;
         facts["moment"] = found.forces.moment;
-        if (found.transition) {
-            facts["transition_upper"] = found.transition->upper;
-            facts["transition_lower"] = found.transition->lower;
+        if (found.transitions.size() == 1) {
+            facts["transition_upper"] = found.transitions.front().upper;
+            facts["transition_lower"] = found.transitions.front().lower;
         }
         if (found.loose) facts["converged"] = false;
         if (found.has_layers && !found.flow.estimated) {

@@ -104,7 +104,7 @@ class Flow(Values):
     warnings: Sequence[MeshWarning] = ()  #: where the flow separates, or could not be found
     drag: float | None = None  #: drag coefficient; of attached layers by Squire and Young
     moment: float | None = None  #: of the pressures, nose up, about a quarter chord; None with shocks
-    transition_upper: float | None = None  #: share of the extent in x where the layer of a single section is turbulent
+    transition_upper: float | None = None  #: share of the extent in x where the layer is turbulent; None for several bodies
     transition_lower: float | None = None  #: the same on the lower side; None where layers do not displace the flow
     viscous_drag: float | None = None  #: of boundary layers and wakes
     wave_drag: float | None = None  #: of shocks
@@ -123,11 +123,11 @@ def transition_values(ncrit: float | None, trip: float | None, trip_lower: float
 @with_options
 def flow(sections: Sections, *, ncrit: float | None = None, trip: float | None = None,
          trip_lower: float | None = None, **options: Unpack[MeshOptions]) -> Flow:
-    """Computes the flow round sections without a mesh, as `lamina flow` does: incompressible flow with boundary layers,
-    which displace that of a single section, or the Euler equations where `mach` makes it faster than sound.
+    """Computes the flow round sections without a mesh, as `lamina flow` does: incompressible flow, which boundary layers
+    displace outside of rows of blades, or the Euler equations where `mach` makes it faster than sound.
 
     ncrit: the exponent of waves at which layers become turbulent (9). trip: the share of the extent in x where they are so
-    at the latest, and trip_lower on the lower side. All three are for a single section without walls.
+    at the latest, and trip_lower on the lower side.
 
     Of the options of `lamina.mesh()` those of the flow count (`alpha`, `mach`, `reynolds`, `chord`, ...), of the geometry,
     and of walls outside (`ground`, `tunnel`, `periodic`). Raises OptionError, InputError and IoError.

@@ -14,8 +14,7 @@ void require_default(const TransitionOptions& transition) {
     const char* name = transition.critical_exponent != usual.critical_exponent ? "ncrit"
                        : transition.trip                                       ? "trip"
                                                                                : "trip-lower";
-    if (transition != usual)
-        throw OptionError(name, "needs a single section without walls, and a Reynolds number of 1e4 or more");
+    if (transition != usual) throw OptionError(name, "needs a Reynolds number of 1e4 or more, and no row of blades");
 }
 
 /// Puts flows that were solved with their layers in the places of those that are not compressible.
@@ -26,7 +25,7 @@ void add_coupled_flows(std::vector<FoundFlow>& found, std::vector<CoupledFlow> f
         flow.flow = std::move(next->flow);
         flow.forces = next->forces;
         flow.loose = !next->converged;
-        if (next->converged) flow.transition = {next->transition_upper, next->transition_lower};
+        flow.transitions = std::move(next->transitions);
         ++next;
     }
 }
@@ -42,7 +41,7 @@ void compress(FoundFlow& found, double mach) {
 }  // namespace
 
 bool is_undisplaced(const FoundFlow& found) {
-    return found.has_layers && !found.transition && !found.compressible && !found.flow.estimated;
+    return found.has_layers && !found.is_coupled() && !found.compressible && !found.flow.estimated;
 }
 
 Geometry in_row(Geometry geometry, const CaseOptions& options) {
@@ -62,7 +61,7 @@ std::vector<FoundFlow> find_flows(Geometry geometry, const CaseOptions& options,
     const ReferenceConditions reference = reference_conditions(options.conditions, geometry);
     const FlowWalls walls = flow_walls(geometry, options.conditions, options.far_field);
     const Geometry prepared = prepare_surfaces(geometry, options.surface, reference.chord);
-    const bool coupled = can_be_coupled(prepared, reference, walls);
+    const bool coupled = can_be_coupled(reference, walls);
     if (!coupled) require_default(transition);
     std::vector<FoundFlow> found;
     std::vector<FlowConditions> to_couple;
@@ -77,7 +76,7 @@ std::vector<FoundFlow> find_flows(Geometry geometry, const CaseOptions& options,
         else
             flow.forces = flow_forces(flow.flow);
     }
-    if (!to_couple.empty()) add_coupled_flows(found, solve_coupled_flow(prepared, to_couple, transition));
+    if (!to_couple.empty()) add_coupled_flows(found, solve_coupled_flow(prepared, to_couple, transition, walls));
     if (reference.mach)
         for (FoundFlow& flow : found)
             if (!flow.compressible) compress(flow, *reference.mach);

@@ -12,19 +12,15 @@
 
 namespace lamina::app {
 
-/// Where the layers of a section become turbulent, as shares of its extent in x.
-struct TransitionPlaces {
-    double upper, lower;
-};
-
 /// The flow that its conditions ask for.
 struct FoundFlow {
     Flow flow;          ///< incompressible flow; with a Mach number, its pressures are compressible
     FlowForces forces;  ///< of it
-    std::optional<TransitionPlaces> transition{};    ///< where flow and layers were solved together
+    std::vector<TransitionPlaces> transitions{};     ///< per element, where flow and layers were solved together
     std::optional<CompressibleFlow> compressible{};  ///< with shocks, where the flow is faster than sound
     bool has_layers = false;                         ///< whether a Reynolds number is known
     bool loose = false;  ///< whether flow and layers were to be solved together, and no solution was found
+    bool is_coupled() const { return !transitions.empty(); }
 };
 
 /// Returns whether there are layers, and they do not displace the flow.
@@ -37,8 +33,8 @@ inline constexpr const char* undisplaced_line =
 Geometry in_row(Geometry geometry, const CaseOptions& options);
 
 /// Solves compressible flow where it is faster than sound, else incompressible flow, whose pressures are those of compressible
-/// flow where there is a Mach number. One section without walls has boundary layers that displace its flow
-/// (solve_coupled_flow()), from a Reynolds number of 1e4 on, all others layers that do not. Throws OptionError for options out
+/// flow where there is a Mach number. From a Reynolds number of 1e4 on boundary layers displace the flow
+/// (solve_coupled_flow()) but that of rows of blades, whose layers do not. Throws OptionError for options out
 /// of range, and for those of transition where layers do not displace the flow.
 FoundFlow find_flow(Geometry geometry, const CaseOptions& options, const TransitionOptions& transition = {});
 /// Finds the flow at each of these conditions, of one chord, in their order.

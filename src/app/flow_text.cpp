@@ -63,13 +63,15 @@ std::string flow_summary(const FoundFlow& found) {
         text +=
             fmt::format(", drag coefficient {:.5f}, moment coefficient {:.4f}", found.forces.drag, found.forces.moment);
     text += fmt::format(", based on the chord {:.6g}\n", flow.chord);
-    if (found.transition)
-        text += fmt::format("layers turbulent from {:.4f} of the extent in x on the upper, {:.4f} on the lower side\n",
-                            found.transition->upper, found.transition->lower);
     if (is_undisplaced(found)) text += undisplaced_line;
-    for (const ElementFlow& element : flow.elements) {
+    for (std::size_t e = 0; e < flow.elements.size(); ++e) {
+        const ElementFlow& element = flow.elements[e];
         text += fmt::format("{}: lift coefficient {:.4f}, stagnation point ({:.5g}, {:.5g})\n", element.name,
                             element.lift, element.stagnation.x, element.stagnation.y);
+        if (found.is_coupled())
+            text += fmt::format(
+                "  layers turbulent from {:.4f} of the extent in x on the upper, {:.4f} on the lower side\n",
+                found.transitions[e].upper, found.transitions[e].lower);
         text += side_line("upper", element.upper, has_layers) + side_line("lower", element.lower, has_layers);
     }
     return text;

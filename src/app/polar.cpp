@@ -51,12 +51,13 @@ bool is_attached(const Flow& flow, bool bubbles_count) {
 }
 
 void add_transition(const FoundFlow& found, PolarRow& row) {
-    if (found.transition) {
-        row.top_xtr = found.transition->upper;
-        row.bottom_xtr = found.transition->lower;
+    const ElementFlow& element = longest(found.flow);
+    if (found.is_coupled()) {
+        const auto& [upper, lower] = found.transitions[static_cast<std::size_t>(&element - found.flow.elements.data())];
+        row.top_xtr = upper;
+        row.bottom_xtr = lower;
         return;
     }
-    const ElementFlow& element = longest(found.flow);
     Box box;
     for (const auto* side : {&element.upper, &element.lower})
         for (const FlowPoint& p : *side) box.include(p.at);
@@ -82,9 +83,9 @@ PolarRow row_of_incompressible_flow(const FoundFlow& found) {
     row.cd = found.forces.drag;
     row.cdp = found.forces.drag - found.forces.friction_drag;
     add_transition(found, row);
-    if (!is_attached(flow, !found.transition)) {
+    if (!is_attached(flow, !found.is_coupled())) {
         row.state = "separated";
-        row.steady = found.transition.has_value();
+        row.steady = found.is_coupled();
     }
     if (!flow.warnings.empty()) {
         row.state = found.loose ? "not coupled" : "stalled";
@@ -134,7 +135,7 @@ FlowPolar flow_polar(Geometry geometry, const CaseOptions& options, const Transi
     for (const FoundFlow& found :
          find_flows(std::move(geometry), options, conditions_of_angles(options.conditions), transition)) {
         polar.rows.push_back(row_of_flow(found));
-        coupled = coupled || found.transition;
+        coupled = coupled || found.is_coupled();
         polar.conditions.undisplaced = polar.conditions.undisplaced || is_undisplaced(found);
     }
     if (coupled) polar.conditions.transition = transition;

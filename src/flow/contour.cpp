@@ -8,6 +8,7 @@
 #include "core/angles.hpp"
 #include "core/bounding_box.hpp"
 #include "core/rounding.hpp"
+#include "flow/coves.hpp"
 #include "geometry/sheets.hpp"
 #include "geometry/trailing_edge.hpp"
 #include "surface/clearance.hpp"
@@ -27,7 +28,6 @@ constexpr double gradation = 0.12;        ///< growth of the spacing per unit of
 constexpr double gap_share = 0.5;         ///< spacing over the distance to the next element
 constexpr double max_turning_deg = 6;     ///< of the outline from the middle of a panel to that of the next one
 constexpr double max_panels = 300;        ///< per element; beyond that all spacings grow alike
-constexpr double max_all_panels = 3000;   ///< of all elements: memory is that of their square, and time of their cube
 
 constexpr double least_base = 1e-4;      ///< bases shorter than this share of the extent count as sharp
 constexpr double min_rounded_deg = 90;   ///< a trailing edge with a larger interior angle counts as rounded
@@ -134,6 +134,14 @@ OpenOutline cut_open(const Element& element, double extent) {
     }
     if (!outline.blunt) outline.points.front() = outline.points.back() = midpoint(lower_end, upper_end);
     return outline;
+}
+
+void fair_both_coves(OpenOutline& outline, double extent) {
+    for (int side = 0; side < 2; ++side) {
+        fair_cove(outline.points, outline.is_corner, extent);
+        std::reverse(outline.points.begin(), outline.points.end());
+        std::reverse(outline.is_corner.begin(), outline.is_corner.end());
+    }
 }
 
 /// A short part of the curve through an outline.
@@ -289,15 +297,16 @@ std::vector<Point> place_nodes(const OutlineCurve& curve, std::span<const double
 
 }  // namespace
 
-std::vector<Contour> make_contours(const Geometry& given) {
+std::vector<Contour> make_contours(const Geometry& given, const ContourOptions& options) {
     const Geometry geometry = geometry::with_thickness(given);
     const surface::ClearanceSearch walls(geometry);
-    const double most = std::min(max_panels, max_all_panels / static_cast<double>(geometry.elements.size()));
+    const double most = std::min(max_panels, options.most_panels / static_cast<double>(geometry.elements.size()));
     std::vector<Contour> contours;
     for (std::size_t e = 0; e < geometry.elements.size(); ++e) {
         const Element& element = geometry.elements[e];
         const double extent = core::longer_side(core::bounding_box(element.points));
-        const OpenOutline outline = cut_open(element, extent);
+        OpenOutline outline = cut_open(element, extent);
+        if (options.fair_coves) fair_both_coves(outline, extent);
         OutlineCurve curve = make_curve(outline, extent);
         select_corners(curve);
         const std::vector<double> spacing = panel_spacing(curve, e, extent, walls, geometry.elements.size() == 1);

@@ -18,9 +18,16 @@ struct Contour {
     std::optional<Point> sharp_nose{};  ///< the tip of a sheet opposite of its trailing edge
 };
 
+/// How contours are made.
+struct ContourOptions {
+    double most_panels = 3000;  ///< of all elements together: memory is that of its square, and time of its cube
+    bool fair_coves = false;    ///< whether layers pass coves as fair_cove() says
+};
+
 /// Returns the contours of all elements. The nodes lie on splines through the given points. Their spacing follows from
 /// the curvature, from the distance to corners and to other elements; it does not depend on that of the given points,
-/// and zigzags shorter than it do not reduce it. Sheets are thin sections, and those on walls are left out.
-std::vector<Contour> make_contours(const Geometry& given);
+/// and zigzags shorter than it do not reduce it. It grows where there would be too many panels. Sheets are thin sections, and
+/// those on walls are left out.
+std::vector<Contour> make_contours(const Geometry& given, const ContourOptions& options = {});
 
 }  // namespace lamina::flow

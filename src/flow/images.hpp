@@ -57,4 +57,11 @@ inline std::vector<Image> images_in(const FlowWalls& walls) {
     return images;
 }
 
+/// Returns the bodies themselves, as an image that is not mirrored, and after them their images.
+inline std::vector<Image> bodies_and_images(const FlowWalls& walls) {
+    std::vector<Image> all{{false, 0, 1}};
+    for (const Image& image : images_in(walls)) all.push_back(image);
+    return all;
+}
+
 }  // namespace lamina::flow

@@ -290,8 +290,7 @@ Point leaving_direction(std::span<const Point> nodes) {
 PanelSolution solve_panels(std::span<const Contour> contours, double alpha_deg, const FlowWalls& walls) {
     if (contours.empty()) return {};
     const auto [bodies, scaled_walls, unit_length] = make_bodies(contours, walls);
-    std::vector<Image> images{{false, 0, 1}};  // the bodies themselves first
-    for (const Image& image : images_in(scaled_walls)) images.push_back(image);
+    const std::vector<Image> images = bodies_and_images(scaled_walls);
     std::vector<std::vector<double>> strengths = solve_strengths(bodies, images, free_stream(alpha_deg));
     const std::vector<PanelSheet> in_stream = make_sheets(contours, bodies, strengths.front());
     PanelSolution solution{in_stream, {}, walls};
@@ -320,19 +319,22 @@ PanelSolution solve_panels(std::span<const Contour> contours, double alpha_deg, 
     return solution;
 }
 
-std::vector<double> strengths_per_stream_function(const Contour& contour) {
-    const auto [bodies, walls, unit_length] = make_bodies({&contour, 1}, {});
-    const std::size_t n = contour.nodes.size(), size = system_size(bodies);
+std::vector<double> strengths_per_stream_function(std::span<const Contour> contours, const FlowWalls& walls) {
+    const auto [bodies, scaled_walls, unit_length] = make_bodies(contours, walls);
+    std::vector<std::size_t> columns;  // of all nodes
     std::vector<std::vector<double>> units;
-    for (std::size_t j = 0; j < n; ++j) {
-        units.emplace_back(size);
-        if (contour.blunt || j + 1 < n) units[j][j] = -1 / unit_length;
-    }
-    const std::vector<Image> images{{false, 0, 1}};
-    const std::vector<std::vector<double>> columns = solve_dense(make_matrix(bodies, images), units);
+    for (const Body& body : bodies)
+        for (std::size_t j = 0; j < body.nodes.size(); ++j) {
+            columns.push_back(body.column + j);
+            std::vector<double>& unit = units.emplace_back(system_size(bodies));
+            if (body.blunt || j + 1 < body.nodes.size()) unit[columns.back()] = -1 / unit_length;
+        }
+    const std::vector<std::vector<double>> answers =
+        solve_dense(make_matrix(bodies, bodies_and_images(scaled_walls)), units);
+    const std::size_t n = columns.size();
     std::vector<double> result(n * n);
     for (std::size_t j = 0; j < n; ++j)
-        for (std::size_t i = 0; i < n; ++i) result[i * n + j] = columns[j][i];
+        for (std::size_t i = 0; i < n; ++i) result[i * n + j] = answers[j][columns[i]];
     return result;
 }
 

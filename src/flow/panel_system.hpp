@@ -42,9 +42,10 @@ inline std::span<const PanelSheet> sheets_of(const Flow& flow) {
 /// Returns the sheets of all contours between walls, along which the stream runs. Their strengths are not finite where the system is singular.
 PanelSolution solve_panels(std::span<const Contour> contours, double alpha_deg, const FlowWalls& walls = {});
 
-/// Returns what the sheet of one body in unbounded flow answers to a stream function: the strength at node i for a unit of it
-/// at node j, row by row. The lengths of both have the unit of the contour.
-std::vector<double> strengths_per_stream_function(const Contour& contour);
+/// Returns what the sheets of bodies between walls answer to a stream function: the strength at node i for a unit of it at node
+/// j, row by row, with the nodes of all bodies in their order. Lengths have the unit of the contours. Precondition: there is no
+/// row of blades.
+std::vector<double> strengths_per_stream_function(std::span<const Contour> contours, const FlowWalls& walls);
 
 /// Returns the direction in which the flow leaves the trailing edge: between the two sides.
 Point leaving_direction(std::span<const Point> nodes);

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "flow/coupled/interval.hpp"
+#include "flow/coves.hpp"
 
 namespace lamina {
 namespace {
@@ -21,6 +22,24 @@ std::vector<CoupledFlow> coupled_flows(const Geometry& geometry, double reynolds
 }
 
 Geometry section_of(const char* digits) { return make_geometry({naca_airfoil(digits, 241, TrailingEdge::blunt)}); }
+
+/// Returns a section, turned nose up, scaled and moved.
+Element placed(const char* digits, double angle_deg, double scale, Point to) {
+    Element element = naca_airfoil(digits, 121, TrailingEdge::blunt);
+    const double angle = angle_deg * 0.017453292519943295, c = scale * std::cos(angle), s = scale * std::sin(angle);
+    for (Point& p : element.points) p = Point{c * p.x + s * p.y, -s * p.x + c * p.y} + to;
+    return element_of_points(element.points, digits);
+}
+
+/// Returns a section whose lower side is cut away between two places down to a depth, with a sharp corner ahead.
+std::vector<Point> section_with_cove(double from, double to, double depth) {
+    std::vector<Point> points = naca_airfoil("4412", 161, TrailingEdge::blunt).points;
+    const std::size_t nose = points.size() / 2;
+    for (std::size_t i = nose; i < points.size(); ++i)
+        if (const double share = (points[i].x - from) / (to - from); share > 0 && share < 1)
+            points[i].y += depth * std::min(1.0, 8 * share) * (1 - share);
+    return points;
+}
 
 struct XfoilRow {
     const char* digits;
@@ -43,8 +62,8 @@ TEST(CoupledFlow, HasTheForcesAndTransitionsOfXfoil) {
         EXPECT_NEAR(found.forces.lift, row.lift, lift_tolerance * std::max(row.lift, 0.1));
         EXPECT_NEAR(found.forces.drag, row.drag, drag_tolerance * row.drag);
         EXPECT_NEAR(found.forces.moment, row.moment, moment_tolerance);
-        EXPECT_NEAR(found.transition_upper, row.upper, place_tolerance);
-        EXPECT_NEAR(found.transition_lower, row.lower, place_tolerance);
+        EXPECT_NEAR(found.transitions.front().upper, row.upper, place_tolerance);
+        EXPECT_NEAR(found.transitions.front().lower, row.lower, place_tolerance);
     }
 }
 
@@ -65,10 +84,10 @@ TEST(CoupledFlow, TripsMakeLayersTurbulent) {
     ASSERT_TRUE(tripped.converged);
     EXPECT_NEAR(tripped.forces.lift, 0.4543, 0.004);
     EXPECT_NEAR(tripped.forces.drag, 0.00929, 0.0001);
-    EXPECT_NEAR(tripped.transition_upper, 0.05, 1e-6);
+    EXPECT_NEAR(tripped.transitions.front().upper, 0.05, 1e-6);
     const CoupledFlow noisy = coupled_flows(section, 3e6, {4}, {.critical_exponent = 4}).front(),
                       quiet = coupled_flows(section, 3e6, {4}).front();
-    EXPECT_LT(noisy.transition_upper, quiet.transition_upper);
+    EXPECT_LT(noisy.transitions.front().upper, quiet.transitions.front().upper);
     EXPECT_GT(noisy.forces.drag, quiet.forces.drag);
 }
 
@@ -85,7 +104,7 @@ TEST(CoupledFlow, IsMirroredAndScaledWithTheSection) {
     ASSERT_TRUE(a.converged && b.converged && c.converged);
     EXPECT_NEAR(a.forces.lift, -b.forces.lift, 1e-3);
     EXPECT_NEAR(a.forces.drag, b.forces.drag, 1e-5);
-    EXPECT_NEAR(a.transition_upper, b.transition_lower, 1e-3);
+    EXPECT_NEAR(a.transitions.front().upper, b.transitions.front().lower, 1e-3);
     EXPECT_NEAR(a.forces.lift, c.forces.lift, 1e-9);
     EXPECT_NEAR(a.forces.drag, c.forces.drag, 1e-9);
 }
@@ -122,6 +141,41 @@ TEST(CoupledFlow, AnObliqueBaseIsAsWideAsTheFlowSeesIt) {
     }
 }
 
+TEST(Coves, AreFairedOnEitherSide) {
+    const std::vector<Point> given = section_with_cove(0.6, 0.99, 0.05);
+    std::vector<Point> upright = given, flipped;
+    std::vector<bool> corners(given.size());
+    corners.front() = corners.back() = true;
+    std::vector<bool> flipped_corners = corners;
+    for (const Point p : given) flipped.push_back({p.x, -p.y});
+    flow::fair_cove(upright, corners, 1);
+    flow::fair_cove(flipped, flipped_corners, 1);
+    ASSERT_NE(upright, given);
+    ASSERT_EQ(upright.size(), flipped.size());
+    ASSERT_EQ(upright.size(), corners.size());
+    for (std::size_t i = 0; i < upright.size(); ++i) EXPECT_EQ(upright[i], (Point{flipped[i].x, -flipped[i].y}));
+    // All that is ahead of the corner stays, and the trailing edge.
+    EXPECT_TRUE(std::equal(given.begin(), given.begin() + 125, upright.begin()));
+    EXPECT_EQ(upright.back(), given.back());
+    const auto highest_below = [](const std::vector<Point>& points) {
+        double highest = -1;
+        for (auto p = points.begin() + 81; p != points.end() && p->x < 0.9; ++p) highest = std::max(highest, p->y);
+        return highest;
+    };
+    EXPECT_GT(highest_below(given), 0.03);
+    EXPECT_LT(highest_below(upright), 0.015);
+}
+
+TEST(Coves, SmoothSidesHaveNone) {
+    for (const char* digits : {"0012", "4412", "6409"}) {
+        const std::vector<Point> given = naca_airfoil(digits, 161).points;
+        std::vector<Point> faired = given;
+        std::vector<bool> corners(given.size());
+        flow::fair_cove(faired, corners, 1);
+        EXPECT_EQ(faired, given) << digits;
+    }
+}
+
 namespace coupled = flow::coupled;
 
 /// Compares the derivatives of equations by the numbers of both stations with differences.
@@ -148,16 +202,68 @@ void expect_derivatives(const coupled::Station& a, const coupled::Station& b, F&
     }
 }
 
-TEST(CoupledFlow, IsForOneSectionWithoutWallsWhoseLayersBecomeTurbulent) {
-    const Geometry section = section_of("0012");
-    EXPECT_TRUE(can_be_coupled(section, {.reynolds = 1e4}));
-    EXPECT_FALSE(can_be_coupled(section, {.reynolds = 9999}));
-    EXPECT_FALSE(can_be_coupled(section, {}));
-    for (const FlowWalls& walls : {FlowWalls{.below = -1}, FlowWalls{.above = 1}, FlowWalls{.pitch = 1}})
-        EXPECT_FALSE(can_be_coupled(section, {.reynolds = 1e6}, walls));
-    Geometry two = section;
-    two.elements.push_back(section.elements.front());
-    EXPECT_FALSE(can_be_coupled(two, {.reynolds = 1e6}));
+TEST(CoupledFlow, IsForLayersThatBecomeTurbulentOutsideOfRows) {
+    EXPECT_TRUE(can_be_coupled({.reynolds = 1e4}));
+    EXPECT_FALSE(can_be_coupled({.reynolds = 9999}));
+    EXPECT_FALSE(can_be_coupled({}));
+    EXPECT_TRUE(can_be_coupled({.reynolds = 1e6}, {.below = -1, .above = 1}));
+    EXPECT_FALSE(can_be_coupled({.reynolds = 1e6}, {.pitch = 1}));
+}
+
+TEST(CoupledFlow, SectionsFarFromEachOtherAreAsAlone) {
+    constexpr double far_away = 2000;
+    const Geometry two = make_geometry({placed("2412", 0, 1, {}), placed("4412", 0, 1, {0, far_away})}),
+                   first = make_geometry({placed("2412", 0, 1, {})}),
+                   second = make_geometry({placed("4412", 0, 1, {})});
+    const FlowConditions conditions{.alpha_deg = 3, .reynolds = 1e6, .chord = 1};
+    const auto flow = [&](const Geometry& geometry) {
+        return solve_coupled_flow(geometry, std::array{conditions}).front();
+    };
+    const CoupledFlow both = flow(two), a = flow(first), b = flow(second);
+    ASSERT_TRUE(both.converged && a.converged && b.converged);
+    EXPECT_NEAR(both.flow.elements[0].lift, a.forces.lift, 2e-3);
+    EXPECT_NEAR(both.flow.elements[1].lift, b.forces.lift, 2e-3);
+    EXPECT_NEAR(both.forces.drag, a.forces.drag + b.forces.drag, 2e-5);
+    ASSERT_EQ(both.transitions.size(), 2U);
+    EXPECT_NEAR(both.transitions[0].upper, a.transitions[0].upper, 2e-3);
+    EXPECT_NEAR(both.transitions[1].lower, b.transitions[0].lower, 2e-3);
+}
+
+TEST(CoupledFlow, AWallIsTheLineOfSymmetryOfAMirroredSection) {
+    constexpr double height = 0.3;
+    Element above = placed("4412", -4, 1, {0, height}), below = above;
+    for (Point& p : below.points) p.y = -p.y;
+    std::reverse(below.points.begin(), below.points.end());
+    const FlowConditions conditions{.reynolds = 1e6, .chord = 1};
+    const CoupledFlow mirrored = solve_coupled_flow(make_geometry({above, below}), std::array{conditions}).front(),
+                      grounded =
+                          solve_coupled_flow(make_geometry({above}), std::array{conditions}, {}, {.below = 0}).front();
+    ASSERT_TRUE(mirrored.converged && grounded.converged);
+    EXPECT_NEAR(mirrored.forces.lift, 0, 1e-3);
+    EXPECT_NEAR(mirrored.flow.elements[0].lift, grounded.forces.lift, 0.005 * std::abs(grounded.forces.lift));
+    EXPECT_NEAR(mirrored.forces.drag, 2 * grounded.forces.drag, 0.01 * mirrored.forces.drag);
+}
+
+TEST(CoupledFlow, FlapsBehindSlotsAreSolved) {
+    for (const double flap_deg : {10.0, 25.0}) {
+        const Geometry wing = make_geometry({placed("4412", 0, 1, {}), placed("4412", flap_deg, 0.3, {0.985, -0.028})});
+        const FlowConditions conditions{.alpha_deg = 4, .reynolds = 2e6, .chord = 1};
+        const CoupledFlow found = solve_coupled_flow(wing, std::array{conditions}).front();
+        ASSERT_TRUE(found.converged) << flap_deg;
+        const double outer = solve_flow(wing, conditions).lift;
+        EXPECT_LT(found.forces.lift, 0.97 * outer) << flap_deg;
+        EXPECT_GT(found.forces.lift, 0.75 * outer) << flap_deg;
+    }
+}
+
+TEST(CoupledFlow, PassesACoveAheadOfAFlap) {
+    const Geometry wing = make_geometry(
+        {element_of_points(section_with_cove(0.7, 0.99, 0.04), "main"), placed("4412", 25, 0.3, {0.96, -0.025})});
+    const CoupledFlow found =
+        solve_coupled_flow(wing, std::array{FlowConditions{.alpha_deg = 4, .reynolds = 2e6, .chord = 1}}).front();
+    ASSERT_TRUE(found.converged);
+    EXPECT_GT(found.forces.lift, 1.5);
+    EXPECT_LT(found.forces.drag, 0.04);
 }
 
 TEST(LayerEquations, HaveTheDerivativesOfDifferences) {

@@ -45,41 +45,60 @@ Contour to_solve(Contour contour, double chord) {
     return contour;
 }
 
-Box box_of(const Contour& contour) {
+/// The wall of a body, with arc lengths, and its extent.
+struct Wall {
+    std::span<const Point> nodes;
+    std::span<const double> s;
     Box box;
-    for (const Point p : contour.nodes) box.include(p);
-    return box;
+};
+
+Wall wall_of(const Influence& flow, std::size_t body) {
+    const auto [first, end, wake_end] = flow.bodies[body];
+    Wall wall{std::span(flow.at).subspan(first, end - first), std::span(flow.s).subspan(first, end - first), {}};
+    for (const Point p : wall.nodes) wall.box.include(p);
+    return wall;
 }
 
 /// Returns the arc length along the outline at which it passes this x on its way from the trailing edge (or, on the lower side,
 /// on its way to it), that of the trailing edge without one.
-double arc_of_trip(const Influence& flow, const Box& box, const std::optional<double>& trip, bool upper) {
-    const double whole = flow.s[flow.wall - 1];
+double arc_of_trip(const Wall& wall, const std::optional<double>& trip, bool upper) {
+    const std::size_t n = wall.nodes.size();
+    const double whole = wall.s[n - 1];
     if (!trip || *trip >= 1) return upper ? 0 : whole;
-    const double x = box.lower.x + *trip * box.width();
-    const auto node = [&](std::size_t k) { return upper ? k : flow.wall - 1 - k; };
-    for (std::size_t k = 0; k + 1 < flow.wall; ++k) {
+    const double x = wall.box.lower.x + *trip * wall.box.width();
+    const auto node = [&](std::size_t k) { return upper ? k : n - 1 - k; };
+    for (std::size_t k = 0; k + 1 < n; ++k) {
         const std::size_t a = node(k), b = node(k + 1);
-        if (flow.at[b].x > x) continue;
-        const double share = (flow.at[a].x - x) / (flow.at[a].x - flow.at[b].x);
-        return flow.s[a] + std::clamp(share, 0.0, 1.0) * (flow.s[b] - flow.s[a]);
+        if (wall.nodes[b].x > x) continue;
+        const double share = (wall.nodes[a].x - x) / (wall.nodes[a].x - wall.nodes[b].x);
+        return wall.s[a] + std::clamp(share, 0.0, 1.0) * (wall.s[b] - wall.s[a]);
     }
     return upper ? 0 : whole;
 }
 
-/// Returns the share of the section's extent in x at an arc length along its outline.
-double share_at(const Influence& flow, const Box& box, double s) {
-    const auto first = flow.s.begin(), end = first + static_cast<std::ptrdiff_t>(flow.wall);
-    const auto behind = std::clamp(std::upper_bound(first, end, s), first + 1, end - 1);
-    const auto j = static_cast<std::size_t>(behind - first);
-    const double t = (s - flow.s[j - 1]) / (flow.s[j] - flow.s[j - 1]);
-    return (flow.at[j - 1].x + t * (flow.at[j].x - flow.at[j - 1].x) - box.lower.x) / box.width();
+std::vector<Trips> trips_of(const Influence& flow, const TransitionOptions& transition) {
+    std::vector<Trips> trips;
+    for (std::size_t e = 0; e < flow.bodies.size(); ++e) {
+        const Wall wall = wall_of(flow, e);
+        trips.push_back({arc_of_trip(wall, transition.trip, true),
+                         arc_of_trip(wall, transition.trip_lower ? transition.trip_lower : transition.trip, false)});
+    }
+    return trips;
 }
 
-/// Returns the sheet along the walls in the units of the input.
-PanelSheet sheet_of(const Contour& contour, const CoupledLayers& layers, std::size_t nose) {
+/// Returns the share of a wall's extent in x at an arc length along it.
+double share_at(const Wall& wall, double s) {
+    const auto behind =
+        std::clamp(std::upper_bound(wall.s.begin(), wall.s.end(), s), wall.s.begin() + 1, wall.s.end() - 1);
+    const auto j = static_cast<std::size_t>(behind - wall.s.begin());
+    const double t = (s - wall.s[j - 1]) / (wall.s[j] - wall.s[j - 1]);
+    return (wall.nodes[j - 1].x + t * (wall.nodes[j].x - wall.nodes[j - 1].x) - wall.box.lower.x) / wall.box.width();
+}
+
+/// Returns the sheet along the wall of a body in the units of the input.
+PanelSheet sheet_of(const Contour& contour, const CoupledLayers& layers, std::size_t first, std::size_t nose) {
     PanelSheet sheet{contour.nodes, {}};
-    for (std::size_t i = 0; i < contour.nodes.size(); ++i)
+    for (std::size_t i = first; i < first + contour.nodes.size(); ++i)
         sheet.strengths.push_back(i <= nose ? -layers.stations[i].speed : layers.stations[i].speed);
     return sheet;
 }
@@ -113,6 +132,7 @@ double wake_drag(const Station& end) {
 }
 
 Warning not_coupled(const Flow& flow) {
+    const std::string name = flow.elements.size() == 1 ? flow.elements.front().name : "all elements";
     return {
         WarningCode::flow_separates,
         flow.elements.front().name,
@@ -121,64 +141,116 @@ Warning not_coupled(const Flow& flow) {
         "degrees",
         fmt::format("{} at {} degrees: flow and boundary layers found no common solution; the layers do not displace "
                     "the flow, and lift is too large",
-                    flow.elements.front().name, flow.alpha_deg)};
+                    name, flow.alpha_deg)};
 }
 
-/// What flows round one section have in common.
-class Section {
+/// All panels together are no more than this: time is that of their cube.
+constexpr double most_panels = 900;
+
+FlowWalls in_chords(FlowWalls walls, double chord) {
+    for (std::optional<double>* wall : {&walls.below, &walls.above})
+        if (*wall) **wall /= chord;
+    return walls;
+}
+
+PanelResponse response_of(std::span<const Contour> contours, const FlowWalls& walls, double chord) {
+    std::vector<Contour> scaled;
+    for (const Contour& contour : contours) scaled.push_back(to_solve(contour, chord));
+    return make_response(scaled, in_chords(walls, chord));
+}
+
+/// What the flows round the same bodies have in common.
+class Bodies {
 public:
-    Section(const Geometry& geometry, double chord, const TransitionOptions& transition)
-        : contour_(make_contours(geometry).front()),
-          body_(make_response(to_solve(contour_, chord))),
-          box_(box_of(body_.contour)),
+    Bodies(const Geometry& geometry, const FlowWalls& walls, double chord, const TransitionOptions& transition)
+        : contours_(make_contours(geometry, {.most_panels = most_panels, .fair_coves = true})),
+          response_(response_of(contours_, walls, chord)),
           chord_(chord),
           transition_(transition) {}
 
     void solve(double reynolds, CoupledFlow& found) {
-        const Influence influence = influence_at(body_, found.flow.alpha_deg);
         const LayerConditions conditions{1 / reynolds, transition_.critical_exponent};
-        const Trips trips{
-            arc_of_trip(influence, box_, transition_.trip, true),
-            arc_of_trip(influence, box_, transition_.trip_lower ? transition_.trip_lower : transition_.trip, false)};
-        CoupledLayers layers = solve_layers(influence, conditions, trips, nullptr);
-        if (!layers.converged && last_) layers = solve_layers(influence, conditions, trips, &*last_);
-        found.steps = layers.steps;
-        found.converged = layers.converged && fill(influence, layers, conditions, found);
-        if (found.converged)
-            last_ = std::move(layers);
-        else
-            found.flow.warnings.push_back(not_coupled(found.flow));
+        const Attempt attempt = reach(found.flow.alpha_deg, conditions);
+        found.steps = attempt.layers.steps;
+        found.converged = attempt.layers.converged && fill(attempt, conditions, found);
+        if (!found.converged) found.flow.warnings.push_back(not_coupled(found.flow));
     }
 
 private:
-    /// Returns whether the flow comes from a stagnation point.
-    bool fill(const Influence& influence, const CoupledLayers& layers, const LayerConditions& conditions,
-              CoupledFlow& found) const {
-        const auto& [upper, lower, wake] = layers.stretches;
-        const PanelSheet sheet = sheet_of(contour_, layers, upper.places.front());
-        std::optional<ElementFlow> sides = make_sides(sheet);
-        if (!sides) return false;
-        ElementFlow& element = found.flow.elements.front();
-        element.stagnation = sides->stagnation;
-        element.upper = std::move(sides->upper);
-        element.lower = std::move(sides->lower);
-        add_layers(upper, layers, conditions, chord_, element.upper);
-        add_layers(lower, layers, conditions, chord_, element.lower);
-        element.lift = found.flow.lift = lift_of_pressures(sheet, found.flow.alpha_deg) / chord_;
-        found.forces = flow_forces(found.flow);
-        found.forces.drag = wake_drag(layers.stations.back());
-        found.transition_upper = share_at(influence, box_, layers.stagnation - upper.turbulent_from);
-        found.transition_lower = share_at(influence, box_, layers.stagnation + lower.turbulent_from);
+    /// The layers at an angle of attack, and their places.
+    struct Attempt {
+        double alpha_deg;
+        Influence influence;
+        CoupledLayers layers;
+    };
+
+    /// Solves the flow at an angle from layers without displacement, or from those of a flow that was found.
+    Attempt solve_at(double alpha_deg, const LayerConditions& conditions, const Attempt* last) {
+        Attempt result{alpha_deg, influence_at(response_, alpha_deg), {}};
+        std::optional<CoupledLayers> start;
+        if (last) start = carry_over(last->layers, last->influence, result.influence);
+        result.layers = solve_layers(result.influence, conditions, trips_of(result.influence, transition_),
+                                     start ? &*start : nullptr);
+        if (result.layers.converged) last_ = result;
+        return result;
+    }
+
+    /// Looks for a flow from layers without displacement, then from the last one found, or from one at half of the angle, in steps
+    /// that are halved where they fail.
+    Attempt reach(double alpha_deg, const LayerConditions& conditions) {
+        constexpr int most_tries = 5;
+        Attempt result = solve_at(alpha_deg, conditions, nullptr);
+        if (result.layers.converged) return result;
+        if (!last_ && !solve_at(0.5 * alpha_deg, conditions, nullptr).layers.converged) return result;
+        double step = alpha_deg - last_->alpha_deg;
+        for (int tries = 0; tries < most_tries && !(result.layers.converged && last_->alpha_deg == alpha_deg);
+             ++tries) {
+            result = solve_at(last_->alpha_deg + step, conditions, &*last_);
+            step = result.layers.converged ? alpha_deg - last_->alpha_deg : 0.5 * step;
+        }
+        result.layers.converged = result.layers.converged && result.alpha_deg == alpha_deg;
+        return result;
+    }
+
+    /// Returns whether the flow comes from a stagnation point of each body.
+    bool fill(const Attempt& attempt, const LayerConditions& conditions, CoupledFlow& found) const {
+        const auto& [alpha_deg, influence, layers] = attempt;
+        std::vector<ElementFlow> elements;
+        for (std::size_t e = 0; e < contours_.size(); ++e) {
+            const BodyStretches& body = layers.bodies[e];
+            const PanelSheet sheet =
+                sheet_of(contours_[e], layers, influence.bodies[e].first, body.upper.places.front());
+            std::optional<ElementFlow> sides = make_sides(sheet);
+            if (!sides) return false;
+            ElementFlow& element = elements.emplace_back(found.flow.elements[e]);
+            element.stagnation = sides->stagnation;
+            element.upper = std::move(sides->upper);
+            element.lower = std::move(sides->lower);
+            add_layers(body.upper, layers, conditions, chord_, element.upper);
+            add_layers(body.lower, layers, conditions, chord_, element.lower);
+            element.lift = lift_of_pressures(sheet, found.flow.alpha_deg) / chord_;
+        }
+        found.flow.elements = std::move(elements);
         found.flow.warnings.clear();  // which are about layers that leave flow that nothing displaces
+        found.flow.lift = 0;
+        for (const ElementFlow& element : found.flow.elements) found.flow.lift += element.lift;
+        found.forces = flow_forces(found.flow);
+        found.forces.drag = 0;
+        for (std::size_t e = 0; e < contours_.size(); ++e) {
+            const BodyStretches& body = layers.bodies[e];
+            found.forces.drag += wake_drag(layers.stations[body.wake.places.back()]);
+            const Wall wall = wall_of(influence, e);
+            found.transitions.push_back({share_at(wall, body.stagnation - body.upper.turbulent_from),
+                                         share_at(wall, body.stagnation + body.lower.turbulent_from)});
+        }
         return true;
     }
 
-    Contour contour_;
-    BodyResponse body_;
-    Box box_;
+    std::vector<Contour> contours_;
+    PanelResponse response_;
     double chord_;
     const TransitionOptions& transition_;
-    std::optional<CoupledLayers> last_;
+    std::optional<Attempt> last_;  ///< the last one with a solution
 };
 
 }  // namespace
@@ -187,24 +259,23 @@ private:
 
 namespace lamina {
 
-bool can_be_coupled(const Geometry& geometry, const ReferenceConditions& reference, const FlowWalls& walls) {
-    return geometry.elements.size() == 1 && reference.reynolds && !flow::is_laminar(reference) && !walls.below &&
-           !walls.above && !walls.pitch;
+bool can_be_coupled(const ReferenceConditions& reference, const FlowWalls& walls) {
+    return reference.reynolds && !flow::is_laminar(reference) && !walls.pitch;
 }
 
 std::vector<CoupledFlow> solve_coupled_flow(const Geometry& geometry, std::span<const FlowConditions> conditions,
-                                            const TransitionOptions& transition) {
+                                            const TransitionOptions& transition, const FlowWalls& walls) {
     validate(transition);
-    std::optional<flow::coupled::Section> section;
+    std::optional<flow::coupled::Bodies> bodies;
     std::vector<CoupledFlow> flows;
     for (const FlowConditions& each : conditions) {
         const ReferenceConditions reference = reference_conditions(each, geometry);
-        assert(can_be_coupled(geometry, reference));
-        CoupledFlow& found = flows.emplace_back(CoupledFlow{solve_flow(geometry, each), {}});
+        assert(can_be_coupled(reference, walls));
+        CoupledFlow& found = flows.emplace_back(CoupledFlow{solve_flow(geometry, each, walls), {}});
         found.forces = flow_forces(found.flow);
         if (found.flow.estimated) continue;
-        if (!section) section.emplace(geometry, reference.chord, transition);
-        section->solve(*reference.reynolds, found);
+        if (!bodies) bodies.emplace(geometry, walls, reference.chord, transition);
+        bodies->solve(*reference.reynolds, found);
     }
     return flows;
 }

@@ -1,9 +1,8 @@
-// Layers and outer flow of one body solved together, by Newton's method on all stations at once.
+// Layers and outer flow of all bodies solved together, by Newton's method on all stations at once.
 // Source: M. Drela, XFOIL (1989), section 5; the sweep that prepares each step lets the speed answer the displaced flux at
 // the same place, after A. E. P. Veldman, AIAA J. 19 (1981), so that it passes separation.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -22,21 +21,31 @@ struct Stretch {
     double turbulent_from = 0;        ///< arc length where the layer becomes turbulent
 };
 
-/// The layers of a flow, and where it stagnates.
+/// The stretches of one body.
+struct BodyStretches {
+    Stretch upper, lower, wake;
+    double stagnation = 0;  ///< arc length along the outline
+};
+
+/// The layers of a flow.
 struct CoupledLayers {
-    std::vector<Station> stations;     ///< per place
-    std::array<Stretch, 3> stretches;  ///< upper side, lower side, wake
-    double stagnation = 0;             ///< arc length along the outline
+    std::vector<Station> stations;  ///< per place
+    std::vector<BodyStretches> bodies;
     bool converged = false;
     int steps = 0;
 };
 
-/// Where layers become turbulent at the latest: arc lengths along the outline, on the upper and on the lower side.
-using Trips = std::array<double, 2>;
+/// Where the layers of a body become turbulent at the latest: arc lengths along the outline.
+struct Trips {
+    double upper, lower;
+};
 
-/// Solves the flow. It begins with `start`, the layers of a similar flow on the same panels, or with layers in the flow
-/// without displacement. Numbers are finite only where it has converged.
-CoupledLayers solve_layers(const Influence& influence, const LayerConditions& conditions, const Trips& trips,
+/// Returns the layers of one flow as those of another one round the same bodies to begin with. Places of the wakes, which lie
+/// elsewhere, have layers as at the same distances from the trailing edges.
+CoupledLayers carry_over(const CoupledLayers& layers, const Influence& from, const Influence& to);
+
+/// Solves the flow. It begins with `start`, layers at its places, or with layers in the flow without displacement. There are trips for each body. Numbers are finite only where it has converged.
+CoupledLayers solve_layers(const Influence& influence, const LayerConditions& conditions, std::span<const Trips> trips,
                            const CoupledLayers* start);
 
 }  // namespace lamina::flow::coupled
