@@ -1,4 +1,4 @@
-import type {Failure} from "./module.ts";
+import type {Failure} from "./values.ts";
 
 /** An error of lamina. `kind` says what is at fault, `file`, `line`, `option` and `at` where, if it is known. */
 export class LaminaError extends Error {

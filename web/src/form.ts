@@ -1,6 +1,6 @@
 // The options of the page. Names, help and ranges are the library's; the page adds which of them are always in sight,
 // and how far their sliders go.
-import type {OptionRow, Options, OptionValue} from "./lamina.ts";
+import type {OptionRow, Options, OptionValue} from "./values.ts";
 
 interface Slider {
   key: string;

@@ -1,6 +1,5 @@
 // What the page and its worker tell each other. Each request has a number, which the replies to it carry.
-import type {Facts, Format, InputFile, MeshArrays, OptionRow, Options, Warning} from "./lamina.ts";
-import type {Failure} from "./module.ts";
+import type {Facts, Failure, Format, InputFile, MeshArrays, OptionRow, Options, Warning} from "./values.ts";
 
 export type Request =
   | {kind: "begin"}

@@ -1,5 +1,7 @@
 // The module that Emscripten makes of web/bindings, as TypeScript sees it.
 
+import type {Facts, Failure, Format, MeshArrays, OptionRow, Outline, Warning} from "./values.ts";
+
 /** The path of a file in the module's own file system, which lives in memory. */
 type Path = string;
 
@@ -9,17 +11,8 @@ export interface Reply<Value> {
   error?: Failure;
 }
 
-export interface Failure {
-  kind: "input" | "option" | "usage" | "mesh" | "io" | "memory" | "internal";
-  message: string;
-  file?: string;
-  line?: number;
-  option?: string;
-  at?: [number, number] | null;
-}
-
 export interface HeldMesh {
-  arrays(): import("./lamina.ts").MeshArrays;
+  arrays(): MeshArrays;
   hash(): string;
   write(file: Path, format: string, wallDistance: boolean): Reply<undefined>;
   delete(): void;
@@ -27,17 +20,17 @@ export interface HeldMesh {
 
 export interface Generated {
   mesh: HeldMesh;
-  warnings: import("./lamina.ts").Warning[];
-  facts: import("./lamina.ts").Facts;
+  warnings: Warning[];
+  facts: Facts;
 }
 
 export interface Module {
   version: string;
-  formats(): import("./lamina.ts").Format[];
+  formats(): Format[];
   threadCount(): number;
-  optionRows(): import("./lamina.ts").OptionRow[];
+  optionRows(): OptionRow[];
   generate(inputs: string[], options: object, progress: ((stage: string) => void) | null): Reply<Generated>;
-  outlines(inputs: string[]): Reply<import("./lamina.ts").Outline[]>;
+  outlines(inputs: string[]): Reply<Outline[]>;
   delaunay(points: Float64Array): Reply<Uint32Array>;
   FS: {
     chdir(folder: Path): void;

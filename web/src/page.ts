@@ -3,7 +3,7 @@ import {Mesher, Stopped} from "./client.ts";
 import {caseOfText, CaseHistory, examples, firstNaca, longestLink, textOfCase, type Case} from "./case.ts";
 import {LaminaError} from "./error.ts";
 import {helpOf, OptionForm} from "./form.ts";
-import type {InputFile} from "./lamina.ts";
+import type {InputFile} from "./values.ts";
 import type {MadeMesh, Offer} from "./messages.ts";
 import {Picture, placesOf, type Coloring} from "./picture.ts";
 import {countText, numberText} from "report-page/charts.js";

@@ -1,6 +1,6 @@
 // The picture of the mesh: the view that reports have, too, with colours and places.
 import {colorLegend, type Legend} from "./legend.ts";
-import type {Facts, MeshArrays} from "./lamina.ts";
+import type {Facts, MeshArrays} from "./values.ts";
 import {distinctColor, viridis} from "report-page/colors.js";
 import {measureCells, shapeOf} from "report-page/measures.js";
 import {placesOfKind, placeTexts} from "report-page/places.js";
