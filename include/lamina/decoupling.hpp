@@ -4,7 +4,7 @@
 // Guarantees:
 //  1. Subdomains share frozen borders, so that their triangles fit together whatever the options say.
 // Limits:
-//  1. The far field encloses bodies and layers at a hundredth of their extent, or it is an OptionError of the mesh.
+//  1. A far field nearer to bodies and layers than a hundredth of their extent is an OptionError of generate_mesh().
 //     Ground and tunnel walls may be as near as bodies are to each other.
 // Example:
 //     CaseOptions options{.layer = {.enabled = false}, .far_field = {.size = 10, .ground = 0.5}};

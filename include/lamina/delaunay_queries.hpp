@@ -25,7 +25,7 @@
 
 namespace lamina {
 
-/// A point lies on one of these parts of a triangle.
+/// The parts of a triangle that a point may lie on.
 enum class PointPlace : std::uint8_t {
     inside,     ///< strictly inside the triangle
     on_edge,    ///< on an edge, but on no vertex
@@ -33,7 +33,7 @@ enum class PointPlace : std::uint8_t {
     outside,    ///< in no triangle
 };
 
-/// This says where a point lies in a triangulation.
+/// The place of a point in a triangulation.
 struct PointLocation {
     TriangleId triangle{};                   ///< the triangle that holds the point; not valid outside
     PointPlace place = PointPlace::outside;  ///< what of the triangle the point lies on

@@ -80,8 +80,8 @@ LAMINA_EXPORT Flow with_compressed_pressures(Flow flow, double mach);
 struct FlowWalls {
     std::optional<double> below{};  ///< y of the wall below, in units of the input
     std::optional<double> above{};  ///< y of the wall above
-    std::optional<double>
-        pitch{};  ///< distance along y of the copies in an endless row; the stream is that far ahead of it
+    /// Distance along y of the copies in an endless row. The free stream then is the flow far ahead of the row.
+    std::optional<double> pitch{};
 };
 
 /// Returns the potential flow round all elements, as read or as prepared, between walls if there are any, and, where a

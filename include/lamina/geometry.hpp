@@ -95,7 +95,7 @@ struct Element {
 /// An element and the box round its points.
 struct ElementBox {
     std::string name;        ///< of the element
-    std::string given_name;  ///< that it came with
+    std::string given_name;  ///< the name that it came with
     Box box;                 ///< round its points
 };
 

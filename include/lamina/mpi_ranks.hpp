@@ -1,7 +1,7 @@
 // Ranks that are processes of MPI. This header is installed with builds that have LAMINA_MPI.
 //
 // Limits:
-//  1. One object for each process, made first and destroyed last; MPI has MPI_THREAD_SERIALIZED.
+//  1. Each process has one MpiSession, made first and destroyed last. MPI must offer MPI_THREAD_SERIALIZED.
 //
 //     int main(int argc, char** argv) {
 //         lamina::MpiSession session(argc, argv);

@@ -16,7 +16,7 @@
 
 namespace lamina {
 
-/// This is what a page says beside the mesh.
+/// What a page says beside the mesh.
 struct PageText {
     std::string title;         ///< its heading, in UTF-8
     std::string facts = "{}";  ///< a JSON object; share/page/page.js says which keys it shows

@@ -68,7 +68,7 @@ LAMINA_EXPORT const std::vector<std::pair<std::string, FlowSolver>>& flow_solver
 inline constexpr double default_case_mach = 0.15;
 /// Returns the half-width of the far field, in chords, that suits the conditions that the solver has for it at a Mach
 /// number: OpenFOAM's far field carries the vortex of the lift; SU2's is a uniform stream, and what is behind shocks of
-/// supersonic flow reaches no far; PyFR's explicit steps make cells expensive.
+/// supersonic flow does not reach far; PyFR's explicit steps make cells expensive.
 LAMINA_EXPORT double far_field_for(FlowSolver solver, double mach = default_case_mach);
 
 /// The flow that a case computes, and what its coefficients count. Lengths are in units of the mesh.

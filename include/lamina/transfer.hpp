@@ -1,4 +1,4 @@
-// The flow on one mesh, carried over to another one of the same domain.
+// Fields of a solution carried over to another mesh of the same domain.
 //
 // Guarantees:
 //  1. Fields that are linear over the whole mesh are reproduced up to rounding where both meshes have the same boundary.
