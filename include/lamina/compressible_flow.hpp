@@ -1,5 +1,5 @@
-// Compressible flow before the mesh: steady, with its shocks and, given a Reynolds number, with turbulent boundary layers
-// that displace it. solve_compressible_flow() of pipeline.hpp finds it on a mesh of its own.
+// Compressible flow before the mesh: steady, with its shocks and, given a Reynolds number, with turbulent boundary
+// layers that displace it. solve_compressible_flow() of pipeline.hpp finds it on a mesh of its own.
 //
 // Guarantees:
 //  1. CompressibleFlow::converged tells whether the flow is steady; elsewhere the numbers are those of the last step.

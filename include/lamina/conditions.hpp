@@ -26,8 +26,8 @@ struct FlowConditions {
     std::string chord_element{};       ///< without a chord: the element whose extent in x it is; empty: of all together
     std::optional<double> velocity{};  ///< of the free stream, in units of the input per second
     std::optional<double> viscosity{};  ///< kinematic viscosity, in squared units of the input per second
-    /// Angles of attack that one mesh is to serve, in degrees; alpha_deg is one of them, where a single one is needed. The
-    /// option `alpha` sets both. Empty: alpha_deg alone.
+    /// Angles of attack that one mesh is to serve, in degrees; alpha_deg is one of them, where a single one is needed.
+    /// The option `alpha` sets both. Empty: alpha_deg alone.
     std::optional<ValueRange> alphas{};
 };
 

@@ -24,10 +24,10 @@ namespace lamina {
 
 inline constexpr unsigned max_cell_order = 4;  ///< the highest order of curved cells
 
-/// The nodes of a mesh of higher order beside its vertices. Node i of these has the number mesh.points.size() + i. Each cell
-/// is the image of a straight one by Lagrange's polynomials of its order, whose nodes are evenly spaced on the straight
-/// cell. Those beside its corners are listed edge by edge, from each corner to the next, then those inside, which are
-/// ordered as the nodes of a smaller cell (the order of Gmsh):
+/// The nodes of a mesh of higher order beside its vertices. Node i of these has the number mesh.points.size() + i. Each
+/// cell is the image of a straight one by Lagrange's polynomials of its order, whose nodes are evenly spaced on the
+/// straight cell. Those beside its corners are listed edge by edge, from each corner to the next, then those inside,
+/// which are ordered as the nodes of a smaller cell (the order of Gmsh):
 ///
 ///        order 2     order 3          order 4                order 3
 ///        2           2                2                      3--9--8--2
@@ -67,17 +67,17 @@ struct CurvedCheck {
     bool valid() const { return defect_count == 0; }  ///< whether all cells are proved valid
 };
 
-/// Proves each cell valid, and checks that lists are complete and cells with an edge in common have its nodes in common.
-/// Parallel. Precondition: check_mesh() finds no defect of the arrays of the mesh. Source: A. Johnen, J.-F. Remacle, C.
-/// Geuzaine, Geometrical validity of curvilinear finite elements, J. Comput. Phys. 233 (2013).
+/// Proves each cell valid, and checks that lists are complete and cells with an edge in common have its nodes in
+/// common. Parallel. Precondition: check_mesh() finds no defect of the arrays of the mesh. Source: A. Johnen, J.-F.
+/// Remacle, C. Geuzaine, Geometrical validity of curvilinear finite elements, J. Comput. Phys. 233 (2013).
 LAMINA_EXPORT CurvedCheck check_curved(const MeshView& mesh, const CurvedNodes& nodes);
 
 /// How well curved cells follow walls.
 struct CurvingSummary {
     std::size_t wall_edges = 0;    ///< edges of the walls of elements
     std::size_t curved_edges = 0;  ///< edges of walls whose nodes are on the curve of the wall
-    /// Edges between curve and chord: those beside cells that were invalid, and those that were divided beside the curve,
-    /// whose parts are straight.
+    /// Edges between curve and chord: those beside cells that were invalid, and those that were divided beside the
+    /// curve, whose parts are straight.
     std::size_t reduced_edges = 0;
     double reduced_distance = 0;  ///< largest distance between such an edge and the curve, in units of the input
     double wall_distance = 0;     ///< largest distance of the others from it, halfway between nodes

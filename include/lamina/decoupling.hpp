@@ -45,8 +45,8 @@ struct FarFieldOptions {
     FarFieldShape shape = FarFieldShape::box;  ///< which of the other members count
     Length size = 100;                         ///< half-width of the box or radius of the circle
     std::vector<Point> outline{};              ///< corners of the polygon, counter-clockwise, in units of the input
-    /// Height of a wind tunnel. Its floor is the ground where there is one, a line of symmetry is in its middle, and else
-    /// the configuration is.
+    /// Height of a wind tunnel. Its floor is the ground where there is one, a line of symmetry is in its middle, and
+    /// else the configuration is.
     std::optional<Length> tunnel{};
     /// Distance of the tunnel's inlet ahead of the configuration; empty: 10 chords or 3 heights, the larger of both, or
     /// what `size` says where it is not the default.

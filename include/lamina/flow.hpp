@@ -101,10 +101,10 @@ struct FlowForces {
 };
 
 /// Returns the forces of a flow. The drag follows from the momentum thickness in the wake far behind, which that at the
-/// trailing edge becomes: 2 theta (u_e)^((H + 5) / 2) / chord for each side. It holds where the flow is attached up to the
-/// trailing edge: of a layer that leaves the wall before, the last attached point counts. Lift and moment are of
-/// compressible pressures where the flow has them, with_compressed_pressures(); drag stays that of incompressible flow. The
-/// moment leaves out the pressure on a base. Source: H. B. Squire, A. D. Young, ARC R&M 1838 (1937).
+/// trailing edge becomes: 2 theta (u_e)^((H + 5) / 2) / chord for each side. It holds where the flow is attached up to
+/// the trailing edge: of a layer that leaves the wall before, the last attached point counts. Lift and moment are of
+/// compressible pressures where the flow has them, with_compressed_pressures(); drag stays that of incompressible flow.
+/// The moment leaves out the pressure on a base. Source: H. B. Squire, A. D. Young, ARC R&M 1838 (1937).
 LAMINA_EXPORT FlowForces flow_forces(const Flow& flow);
 /// Returns the largest value along all walls, or along those of one element, of a number such as &FlowPoint::thickness.
 LAMINA_EXPORT double largest_on_walls(const Flow& flow, double FlowPoint::*number);

@@ -42,8 +42,8 @@ struct WallForecast {
 
 /// A mesh before it is made.
 struct MeshForecast {
-    /// What is known: geometry, conditions, flow, decisions, first heights, coverage, the estimate of memory and time, and
-    /// the seconds of the stages. Mesh and check are empty.
+    /// What is known: geometry, conditions, flow, decisions, first heights, coverage, the estimate of memory and time,
+    /// and the seconds of the stages. Mesh and check are empty.
     MeshResult result;
     std::vector<WallForecast> walls;  ///< one per element; empty without layers
     double layer_cells = 0;           ///< number of cells in the layer

@@ -42,8 +42,8 @@ struct WallPart {
     Point begin;       ///< the vertex that it begins at, counter-clockwise; it ends where the next one begins
 };
 
-/// A body without thickness: a sail, a splitter plate, a Gurney strip. An end that is nearer to the wall of another body
-/// than a thousandth of that body's length, or inside it, stands on that wall.
+/// A body without thickness: a sail, a splitter plate, a Gurney strip. An end that is nearer to the wall of another
+/// body than a thousandth of that body's length, or inside it, stands on that wall.
 struct Sheet {
     std::string name;             ///< of its marker
     std::vector<Point> points{};  ///< from one end to the other, two at least
@@ -112,15 +112,15 @@ struct Geometry {
     std::optional<double> pitch{};     ///< distance along y of the copies in a row, as blade_row() rounded it
 };
 
-/// Keeps of all bodies what is above the line y = Y. Those that the line cuts, or that stand on it, end on it exactly and
-/// are whole again by their images below (Element::is_mirrored); one that it cuts to several parts becomes several
-/// elements. Throws InputError for a body below the line, one that touches it at a single point, and one that encloses a
-/// part of the flow with it.
+/// Keeps of all bodies what is above the line y = Y. Those that the line cuts, or that stand on it, end on it exactly
+/// and are whole again by their images below (Element::is_mirrored); one that it cuts to several parts becomes several
+/// elements. Throws InputError for a body below the line, one that touches it at a single point, and one that encloses
+/// a part of the flow with it.
 LAMINA_EXPORT Geometry cut_at_symmetry(Geometry geometry, double y);
-/// Makes the bodies one blade of an endless row along y, turned counter-clockwise about the origin by the stagger angle.
-/// Geometry::pitch becomes the pitch rounded to 41 significant bits, so that it can be added to coordinates of the border
-/// between blades exactly. Throws OptionError where neighbours are not above and below each other with some room between
-/// along y, and for a row more than 4000 pitches away from y = 0.
+/// Makes the bodies one blade of an endless row along y, turned counter-clockwise about the origin by the stagger
+/// angle. Geometry::pitch becomes the pitch rounded to 41 significant bits, so that it can be added to coordinates of
+/// the border between blades exactly. Throws OptionError where neighbours are not above and below each other with some
+/// room between along y, and for a row more than 4000 pitches away from y = 0.
 LAMINA_EXPORT Geometry blade_row(Geometry geometry, double pitch, double stagger_deg);
 
 LAMINA_EXPORT Box bounding_box(const Geometry& geometry);  ///< the box round all elements
@@ -138,8 +138,8 @@ enum class TailSharpening {
 };
 
 /// The gap of a trailing edge, in chords of its element, and the distance from the trailing edge over which the sides
-/// move, from 0 (the trailing edge alone) to 1 (in proportion to the distance from the leading edge). Source: the command
-/// TGAP of M. Drela's XFOIL (1989).
+/// move, from 0 (the trailing edge alone) to 1 (in proportion to the distance from the leading edge). Source: the
+/// command TGAP of M. Drela's XFOIL (1989).
 struct TrailingEdgeGap {
     double gap = 0;       ///< >= 0
     double distance = 1;  ///< from 0 to 1
@@ -157,8 +157,8 @@ struct GeometryOptions {
     std::optional<TailSharpening> sharpen_te{};     ///< how blunt trailing edges become sharp; empty: they stay blunt
     std::optional<TrailingEdgeGap> open_te{};       ///< the gap of all trailing edges; empty: as they are
     std::vector<Transformation> transformations{};  ///< applied in this order, and after these: transformed()
-    /// Bodies without thickness beside those of the inputs. Transformations may name them, and apply before they are put
-    /// on walls.
+    /// Bodies without thickness beside those of the inputs. Transformations may name them, and apply before they are
+    /// put on walls.
     std::vector<Sheet> sheets{};
 };
 

@@ -74,8 +74,8 @@ LAMINA_EXPORT void write_curved_mesh(const MeshView& mesh, const CurvedNodes& no
                                      const WriteOptions& options = {});
 /// Throws UsageError for formats that do not hold curved cells, in one line that names those that do.
 LAMINA_EXPORT void require_curved_format(const std::filesystem::path& file, const WriteOptions& options = {});
-/// Reads a mesh whose cells may be curved, all of one order: MSH, VTU and CGNS. Other formats are read as read_mesh() does;
-/// their order is 1. Throws InputError where the file is malformed.
+/// Reads a mesh whose cells may be curved, all of one order: MSH, VTU and CGNS. Other formats are read as read_mesh()
+/// does; their order is 1. Throws InputError where the file is malformed.
 LAMINA_EXPORT CurvedMesh read_curved_mesh(const std::filesystem::path& file, const ReadOptions& options = {});
 
 /// Writes wall_vertices() as CSV, one line each: marker, vertex (from 0), x, y, arc length, unit normal and first

@@ -1,9 +1,9 @@
 // Samples of several intervals at once, as for a data set of many conditions.
 //
 // Guarantees:
-//  1. In n samples every interval is divided into n equal parts (equal in the logarithm, where it says so), and each part
-//     holds the value of one sample, somewhere in it (M. D. McKay, R. J. Beckman, W. J. Conover, Technometrics 21 (1979),
-//     section 2.2).
+//  1. In n samples every interval is divided into n equal parts (equal in the logarithm, where it says so), and each
+//     part holds the value of one sample, somewhere in it (M. D. McKay, R. J. Beckman, W. J. Conover, Technometrics 21
+//     (1979), section 2.2).
 //  2. Samples depend on intervals, number and seed alone: they are the same to the last bit everywhere.
 // Limits:
 //  1. Nothing keeps samples apart in more than one dimension: pairs of intervals may be covered unevenly.

@@ -164,8 +164,8 @@ struct MeshCheckOptions {
     double min_angle_deg = proved_min_angle_deg;  ///< bound of QualitySummary::angles_below_bound
     std::optional<double> first_height{};         ///< wanted, in units of the input; empty: the median on each marker
     std::vector<double> first_heights{};  ///< one per marker, in place of first_height; empty: all have the same
-    /// Wanted at the first so many vertices of the mesh, in place of the others; empty: none has its own. The cell on an
-    /// edge may have any height from that of its one end to that of its other end.
+    /// Wanted at the first so many vertices of the mesh, in place of the others; empty: none has its own. The cell on
+    /// an edge may have any height from that of its one end to that of its other end.
     std::vector<double> first_height_at{};
     /// Memory that the search for neighbours may take beside the mesh, but at least 64 MiB and 4 bytes a vertex: with
     /// less than it needs it reads the cells several times. The result is the same. Empty: no limit.

@@ -3,8 +3,8 @@
 // Guarantees:
 //  1. read_metric() reads back exactly what write_metric() writes.
 // Limits:
-//  1. The tensors belong to the vertices of a mesh in their order; the file of the mesh is another one. Whether a tensor is
-//     positive definite is checked by those who use it.
+//  1. The tensors belong to the vertices of a mesh in their order; the file of the mesh is another one. Whether a
+//     tensor is positive definite is checked by those who use it.
 // Example:
 //     write_metric(std::vector<MetricTensor>{{100, 0, 2500}}, "flat.sol");  // edges of 1/10 along x, of 1/50 along y
 //     assert(read_metric("flat.sol") == (std::vector<MetricTensor>{{100, 0, 2500}}));
@@ -18,8 +18,8 @@
 
 namespace lamina {
 
-/// A symmetric positive definite tensor M. A vector e has the length sqrt(e . M e), so that an edge of length h along an
-/// eigenvector is as long as asked for where the eigenvalue is 1 / h^2.
+/// A symmetric positive definite tensor M. A vector e has the length sqrt(e . M e), so that an edge of length h along
+/// an eigenvector is as long as asked for where the eigenvalue is 1 / h^2.
 struct MetricTensor {
     double xx = 1;  ///< in units of the mesh to the power of -2, as all entries
     double xy = 0;  ///< off the diagonal

@@ -7,11 +7,11 @@
 //  3. Places use + - * / and square roots alone, in a fixed order, without contraction: they are the same bits on any
 //     machine and any number of threads.
 // Limits:
-//  1. The outer boundary, and all markers that are no walls, stay; vertices of horizontal lines of symmetry, as slip ground
-//     is one, slide along them. Lines inside the mesh move with it. In slots that close, rays get shorter beyond their
-//     first ten layers.
-//  2. A map is one step from its reference mesh. Motions that turn a cell over end before that, or with a MeshError, unless
-//     MorphOptions::incremental makes several steps of them.
+//  1. The outer boundary, and all markers that are no walls, stay; vertices of horizontal lines of symmetry, as slip
+//     ground is one, slide along them. Lines inside the mesh move with it. In slots that close, rays get shorter beyond
+//     their first ten layers.
+//  2. A map is one step from its reference mesh. Motions that turn a cell over end before that, or with a MeshError,
+//     unless MorphOptions::incremental makes several steps of them.
 // Example:
 //     const Mesh mesh = generate_mesh({"naca:0012:80"}, {.layer = {.first_height = 1e-3, .layers = 8}}).mesh;
 //     const MorphMap map(mesh);
@@ -67,8 +67,8 @@ private:
 /// Options of morph().
 struct MorphOptions {
     bool as_far_as_possible = false;  ///< whether a motion that stops on the way is returned as far as it goes
-    /// Whether a motion that stops goes on from a mesh half as far, by a map of that mesh, and so on. Walls get there in a
-    /// straight line. The derivative of the first map is not that of the result.
+    /// Whether a motion that stops goes on from a mesh half as far, by a map of that mesh, and so on. Walls get there
+    /// in a straight line. The derivative of the first map is not that of the result.
     bool incremental = false;
 };
 
@@ -91,8 +91,8 @@ LAMINA_EXPORT MorphResult morph(const MorphMap& map, std::span<const Point> wall
 /// 60 degrees, may appear, and get a vertex, and vanish. Walls with ends stay.
 /// Throws InputError for another number of bodies, and where sharp corners appear or vanish.
 LAMINA_EXPORT std::vector<Point> wall_points_on(const MorphMap& map, const Geometry& shape);
-/// Returns the wall vertices with the bodies changed: elements are the markers of the walls. Those of deflected flaps are
-/// what wall_points_on() returns. Throws what transformed() throws, and what wall_points_on() throws.
+/// Returns the wall vertices with the bodies changed: elements are the markers of the walls. Those of deflected flaps
+/// are what wall_points_on() returns. Throws what transformed() throws, and what wall_points_on() throws.
 LAMINA_EXPORT std::vector<Point> moved_wall_points(const MorphMap& map, std::span<const Transformation> changes);
 
 /// Returns the wall vertices with displacements from a CSV file added: lines "vertex,dx,dy", of which the first may be
@@ -120,8 +120,8 @@ struct TurnInTime {
     Point center{};                             ///< of the turn
 };
 
-/// Reads "ELEMENT:pitch:MEAN:AMPLITUDE:FREQUENCY[:X,Y]" or "ELEMENT:deflect:DEG:DURATION[:X,Y]". Throws UsageError with the
-/// bare reason, also for numbers out of range.
+/// Reads "ELEMENT:pitch:MEAN:AMPLITUDE:FREQUENCY[:X,Y]" or "ELEMENT:deflect:DEG:DURATION[:X,Y]". Throws UsageError with
+/// the bare reason, also for numbers out of range.
 LAMINA_EXPORT TurnInTime parse_turn_in_time(const std::string& text);
 /// Returns the time of one period, or the duration.
 LAMINA_EXPORT double duration_of(const TurnInTime& turn);
@@ -147,9 +147,9 @@ struct MorphReport {
 
 /// Measures both meshes. Throws InputError for another number of points.
 LAMINA_EXPORT MorphReport compare_morphed(const MorphMap& map, std::span<const Point> points);
-/// Measures both meshes, of which the latter may have other cells between the same vertices, as those of reconnect() are.
-/// Throws InputError for another number of points, and where the walls have other vertices. Precondition: check_mesh()
-/// finds no defect.
+/// Measures both meshes, of which the latter may have other cells between the same vertices, as those of reconnect()
+/// are. Throws InputError for another number of points, and where the walls have other vertices. Precondition:
+/// check_mesh() finds no defect.
 LAMINA_EXPORT MorphReport compare_morphed(const MorphMap& map, const Mesh& morphed);
 
 }  // namespace lamina

@@ -26,10 +26,10 @@ struct PlateLayer {
     std::size_t layers = 0;    ///< number of layers of geometric growth that are as high as that
 };
 
-/// Returns the layer whose first height has this y+. First height and friction are those of turbulent flow at any Reynolds
-/// number; the boundary layer is laminar below 1e4. Throws OptionError for numbers that are not positive, a growth that is
-/// not above 1, and where no first height above 0 follows. Source: F. M. White, Fluid Mechanics, 5th ed. (2003), section
-/// 7.4.
+/// Returns the layer whose first height has this y+. First height and friction are those of turbulent flow at any
+/// Reynolds number; the boundary layer is laminar below 1e4. Throws OptionError for numbers that are not positive, a
+/// growth that is not above 1, and where no first height above 0 follows. Source: F. M. White, Fluid Mechanics, 5th ed.
+/// (2003), section 7.4.
 LAMINA_EXPORT PlateLayer plate_layer(YPlus y_plus, double reynolds, double chord = 1, double growth = 1.2);
 /// Returns the layer of this first height, in the unit of the chord. Throws likewise.
 LAMINA_EXPORT PlateLayer plate_layer_of_height(double first_height, double reynolds, double chord = 1,

@@ -56,8 +56,8 @@ struct PlotField {
     std::vector<double> values;    ///< per vertex
     std::optional<double> line{};  ///< the value along which a line is drawn
 };
-/// Draws a field, linear in triangles and in the halves of quads, and the boundary of the mesh, in place of the cells. The
-/// colours span the numbers in view. Throws UsageError where the field does not fit the mesh.
+/// Draws a field, linear in triangles and in the halves of quads, and the boundary of the mesh, in place of the cells.
+/// The colours span the numbers in view. Throws UsageError where the field does not fit the mesh.
 LAMINA_EXPORT void plot_field(const Mesh& mesh, const PlotField& field, const std::filesystem::path& file,
                               const PlotOptions& options = {});
 /// Throws UsageError for an unknown format or, where none is given, an unknown extension.

@@ -6,8 +6,8 @@
 //     RemeshOptions::divide_borders lets those on straight lines of the boundary be divided or merged.
 //  3. The result depends on the arguments alone: one thread makes it.
 // Limits:
-//  1. Edges of unit length everywhere need not exist: near borders that stay, and where the metric jumps, some are longer or
-//     shorter. RemeshedMesh::unit_edges says how many are not.
+//  1. Edges of unit length everywhere need not exist: near borders that stay, and where the metric jumps, some are
+//     longer or shorter. RemeshedMesh::unit_edges says how many are not.
 // Example:
 //     Mesh mesh{.points = {{0, 0}, {1, 0}, {0, 1}}, .triangles = {{{VertexId{0u}, VertexId{1u}, VertexId{2u}}}}};
 //     mesh.markers = {{"box", MarkerKind::far_field, {}}};
@@ -32,8 +32,8 @@ namespace lamina {
 
 /// Options of remesh().
 struct RemeshOptions {
-    /// Whether edges on straight lines of the boundary may be divided, and vertices between two of them removed. Walls without
-    /// thickness and periodic borders stay as they are.
+    /// Whether edges on straight lines of the boundary may be divided, and vertices between two of them removed. Walls
+    /// without thickness and periodic borders stay as they are.
     bool divide_borders = false;
     std::optional<double> vertices{};   ///< the metric is scaled to ask for about so many; empty: it counts as it is
     std::optional<double> gradation{};  ///< growth of sizes per unit of distance: 0.3; empty: as in the metric
@@ -53,24 +53,24 @@ struct RemeshedMesh {
 
 /// Returns the mesh with its triangles beyond the layer replaced by those that a metric asks for.
 ///
-/// `metric` has one tensor per vertex. Between vertices the tensor of sizes, M^(-1/2), is linear, so that an isotropic metric has
-/// linear sizes (Borouchaki et al. 1997). Edges longer than sqrt(2) are divided and shorter than 1 / sqrt(2) contracted,
-/// diagonals are swapped and vertices moved for the sake of shape. The length of an edge is the integral along it of the
-/// metric between its ends, with a linear size (Alauzet 2010, section 2). Edges that stay are no longer than sqrt(2) in the
-/// metric that counts: it is lowered along them.
+/// `metric` has one tensor per vertex. Between vertices the tensor of sizes, M^(-1/2), is linear, so that an isotropic
+/// metric has linear sizes (Borouchaki et al. 1997). Edges longer than sqrt(2) are divided and shorter than 1 / sqrt(2)
+/// contracted, diagonals are swapped and vertices moved for the sake of shape. The length of an edge is the integral
+/// along it of the metric between its ends, with a linear size (Alauzet 2010, section 2). Edges that stay are no longer
+/// than sqrt(2) in the metric that counts: it is lowered along them.
 ///
-/// Preconditions: check_mesh() finds no defect. Throws OptionError for options out of range, InputError where the number
-/// of tensors is not that of vertices or a tensor is not finite or not positive definite, and MeshError where the mesh has
-/// no triangle beyond the layer or the metric asks for more than 2^29.
+/// Preconditions: check_mesh() finds no defect. Throws OptionError for options out of range, InputError where the
+/// number of tensors is not that of vertices or a tensor is not finite or not positive definite, and MeshError where
+/// the mesh has no triangle beyond the layer or the metric asks for more than 2^29.
 LAMINA_EXPORT RemeshedMesh remesh(const MeshView& mesh, std::span<const MetricTensor> metric,
                                   const RemeshOptions& options = {});
 
-/// Returns the mesh with diagonals of its triangles beyond the layer swapped, and vertices between them moved, where this
-/// lowers the sum of distortions: inverse mean ratios, with edges as long as they are round each vertex. No vertex comes,
-/// goes or gets another number. Triangles of the layer come first, in their order. A mesh without regions gets those of
-/// estimate_regions(), and Mesh::piece is empty. A mesh without triangles beyond its layer keeps its cells. Precondition:
-/// check_mesh() finds no defect. Source: L. A. Freitag, C. Ollivier-Gooch, Tetrahedral mesh improvement using swapping and
-/// smoothing, Int. J. Numer. Methods Eng. 40 (1997), in two dimensions.
+/// Returns the mesh with diagonals of its triangles beyond the layer swapped, and vertices between them moved, where
+/// this lowers the sum of distortions: inverse mean ratios, with edges as long as they are round each vertex. No vertex
+/// comes, goes or gets another number. Triangles of the layer come first, in their order. A mesh without regions gets
+/// those of estimate_regions(), and Mesh::piece is empty. A mesh without triangles beyond its layer keeps its cells.
+/// Precondition: check_mesh() finds no defect. Source: L. A. Freitag, C. Ollivier-Gooch, Tetrahedral mesh improvement
+/// using swapping and smoothing, Int. J. Numer. Methods Eng. 40 (1997), in two dimensions.
 LAMINA_EXPORT Mesh reconnect(const MeshView& mesh);
 
 /// Returns the number of vertices that a metric asks for beyond the layer: 2 / sqrt(3) times its complexity, which

@@ -53,8 +53,8 @@ LAMINA_EXPORT double distance_to(const SizeSource& source, Point p);
 /// Returns the box round the shape, its radius included.
 LAMINA_EXPORT Box bounding_box(const SizeSource& source);
 
-/// A wall as a closed chain of points along it, with the spacing, the first height and the thickness of the layer that a solution
-/// asks for at each. All lists have one entry per point.
+/// A wall as a closed chain of points along it, with the spacing, the first height and the thickness of the layer that
+/// a solution asks for at each. All lists have one entry per point.
 struct SizedWall {
     std::vector<Point> points{};        ///< on the wall, or near to it
     std::vector<double> spacings{};     ///< largest distance of the wall's vertices, in units of the input
@@ -72,8 +72,8 @@ struct SizedMesh {
     /// as that of solution_sizes(), decides on all sizes beyond the layers, without wakes of the flow before the mesh.
     /// Walls, layers and their borders change only where it asks for shorter edges.
     std::optional<double> gradation{};
-    /// Walls that a solution has asked something of. Their spacings count beside those of the flow before the mesh; their first
-    /// heights, where these are given by y+, and their thicknesses take the place of its own.
+    /// Walls that a solution has asked something of. Their spacings count beside those of the flow before the mesh;
+    /// their first heights, where these are given by y+, and their thicknesses take the place of its own.
     std::vector<SizedWall> walls{};
 };
 

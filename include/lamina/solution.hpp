@@ -31,14 +31,14 @@ struct Solution {
 };
 
 /// Reads fields of a solution: a VTU file of triangles and quads with point data or cell data; or a time folder of an
-/// OpenFOAM case with fields in ASCII or binary (volScalarField, volVectorField) on a mesh one cell thick, or the folder
-/// of the case, of which the latest time is read; or a restart file of SU2 (.dat, .csv), whose vectors are those with
-/// the components NAME_x and NAME_y; or a CGNS file with values at vertices, and vectors NAMEX and NAMEY. A name is that
-/// of an array of one component; "NAME:x", "NAME:y" or "NAME:z", a component; or "mag(NAME)", the length of its vectors.
-/// Point data come before cell data of the same name. `mesh` holds the mesh of the solution in any format that can be
-/// read; empty: the VTU or CGNS file itself, constant/polyMesh beside the time folder, or mesh.su2 beside the restart
-/// file. Throws IoError; UsageError where a field or component is missing; InputError where a file is malformed or of
-/// another mesh, where numbers of values and of points or cells differ, and where a value is not finite.
+/// OpenFOAM case with fields in ASCII or binary (volScalarField, volVectorField) on a mesh one cell thick, or the
+/// folder of the case, of which the latest time is read; or a restart file of SU2 (.dat, .csv), whose vectors are those
+/// with the components NAME_x and NAME_y; or a CGNS file with values at vertices, and vectors NAMEX and NAMEY. A name
+/// is that of an array of one component; "NAME:x", "NAME:y" or "NAME:z", a component; or "mag(NAME)", the length of its
+/// vectors. Point data come before cell data of the same name. `mesh` holds the mesh of the solution in any format that
+/// can be read; empty: the VTU or CGNS file itself, constant/polyMesh beside the time folder, or mesh.su2 beside the
+/// restart file. Throws IoError; UsageError where a field or component is missing; InputError where a file is malformed
+/// or of another mesh, where numbers of values and of points or cells differ, and where a value is not finite.
 LAMINA_EXPORT Solution read_solution(const std::filesystem::path& solution, const std::vector<std::string>& fields,
                                      const std::filesystem::path& mesh = {});
 /// Returns the names with which read_solution() reads all point data and cell data of a VTU file, or all values at the

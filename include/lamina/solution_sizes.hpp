@@ -15,8 +15,8 @@
 //     assert(std::abs(static_cast<double>(next.vertices) - 2 * n) <= 0.02 * n);
 //
 // Source: F. Alauzet, A. Loseille, J. Comput. Phys. 229 (2010), section 2.3, with metrics h^(-2) I; goals: A. Loseille,
-// A. Dervieux, F. Alauzet, J. Comput. Phys. 229 (2010); Hessians: M.-G. Vallet, C.-M. Manole, J. Dompierre, S. Dufour, F.
-// Guibault, Int. J. Numer. Meth. Engng 72 (2007).
+// A. Dervieux, F. Alauzet, J. Comput. Phys. 229 (2010); Hessians: M.-G. Vallet, C.-M. Manole, J. Dompierre, S. Dufour,
+// F. Guibault, Int. J. Numer. Meth. Engng 72 (2007).
 #pragma once
 
 #include <functional>
@@ -63,8 +63,8 @@ struct SolutionSizeOptions {
     /// layers stay as they are. Without that, the number of vertices can only be known by making the mesh.
     bool keep_borders = true;
     std::optional<WallFlowOptions> walls{};  ///< empty: nothing is asked of the walls
-    /// Where it is set, sizes lower the error of the goal of an adjoint solution in place of those of the fields: each error of
-    /// interpolation counts as much as it changes the goal, and `norm` is 1.
+    /// Where it is set, sizes lower the error of the goal of an adjoint solution in place of those of the fields: each
+    /// error of interpolation counts as much as it changes the goal, and `norm` is 1.
     std::optional<GoalOptions> goal{};
 };
 
@@ -80,16 +80,16 @@ struct SolutionSizes {
     std::size_t layer_vertices = 0;   ///< number of those in the layer, of the solution's mesh
     std::size_t vertices_before = 0;  ///< number of vertices of the solution's mesh
     int rounds = 0;                   ///< calls of VertexCount
-    /// Per field: an estimate of the norm of the error of linear interpolation before. One number with a goal: the error of
-    /// the goal, if no errors cancelled.
+    /// Per field: an estimate of the norm of the error of linear interpolation before. One number with a goal: the
+    /// error of the goal, if no errors cancelled.
     std::vector<double> errors;
 };
 
-/// Returns the sizes h = c lambda^(-p / (2 p + 2)) at the vertices of the isotropic cells. lambda is the larger eigenvalue
-/// of the recovered Hessian of a field; this has the least L^p norm of interpolation errors for a given number of
-/// triangles. Several fields are scaled so that each by itself asks for the same number of triangles, and the smallest
-/// size is taken. `count` makes the next mesh; empty: layers and their borders stay those of the solution's mesh, and
-/// only the region beyond is meshed, whose outermost border must be convex then.
+/// Returns the sizes h = c lambda^(-p / (2 p + 2)) at the vertices of the isotropic cells. lambda is the larger
+/// eigenvalue of the recovered Hessian of a field; this has the least L^p norm of interpolation errors for a given
+/// number of triangles. Several fields are scaled so that each by itself asks for the same number of triangles, and the
+/// smallest size is taken. `count` makes the next mesh; empty: layers and their borders stay those of the solution's
+/// mesh, and only the region beyond is meshed, whose outermost border must be convex then.
 LAMINA_EXPORT SolutionSizes solution_sizes(const Solution& solution, const SolutionSizeOptions& options,
                                            const VertexCount& count = {});
 

@@ -66,8 +66,8 @@ struct SurfaceOptions {
     std::vector<SideEdges> side_edges{};
     std::vector<StationSpacing> station_spacings{};  ///< spacings at stations; they make `automatic` resample
     std::optional<Length> smooth{};  ///< points are smoothed first, and move by at most this; empty: no smoothing
-    /// Whether walls whose points are kept on request follow a spline through these, where cells are curved; others do so
-    /// in any case.
+    /// Whether walls whose points are kept on request follow a spline through these, where cells are curved; others do
+    /// so in any case.
     bool curve_kept = false;
     double max_turning_deg = 10;  ///< largest turning at a vertex between two corners
     double max_ratio = 1.2;       ///< largest ratio of neighbouring spacings, where none is below min_spacing

@@ -23,11 +23,11 @@
 namespace lamina {
 
 /// Returns the fields of a solution at the vertices of another mesh or, those at cells, at the middles of its cells.
-/// Places are located exactly. Values at vertices are linear in each triangle, and in the two halves of each quad; those
-/// at cells are linear in each cell, with a gradient by least squares over the cells that share a vertex with it. A place
-/// beyond the boundary takes the nearest place on it. Where walls are divided otherwise, the places near them move with
-/// the wall, so that they keep their distance from it. Throws InputError where the solution's mesh is not valid, and
-/// OptionError("field") where a field has another number of values than the mesh has vertices or cells.
+/// Places are located exactly. Values at vertices are linear in each triangle, and in the two halves of each quad;
+/// those at cells are linear in each cell, with a gradient by least squares over the cells that share a vertex with it.
+/// A place beyond the boundary takes the nearest place on it. Where walls are divided otherwise, the places near them
+/// move with the wall, so that they keep their distance from it. Throws InputError where the solution's mesh is not
+/// valid, and OptionError("field") where a field has another number of values than the mesh has vertices or cells.
 LAMINA_EXPORT std::vector<SolutionField> transfer(const Solution& solution, const Mesh& mesh);
 
 }  // namespace lamina

@@ -1,8 +1,8 @@
 // Ranges of numbers: A:B[:STEP], as angles of attack of a polar and values of a sweep are written.
 //
 // Guarantees:
-//  1. Values are the decimal numbers that are meant, where first and step have at most 9 decimals: those of 0:0.3:0.1 are
-//     0, 0.1, 0.2 and 0.3 to the last bit.
+//  1. Values are the decimal numbers that are meant, where first and step have at most 9 decimals: those of 0:0.3:0.1
+//     are 0, 0.1, 0.2 and 0.3 to the last bit.
 // Limits:
 //  1. A range has at most 10,000 values.
 //  2. The last value may be above `last` by 1e-9 of a step, as rounding makes it.
