@@ -13,6 +13,8 @@
 #include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
+#include <nlohmann/json.hpp>
+
 #include <lamina/page.hpp>
 #include <lamina/pipeline.hpp>
 #include <lamina/solution_sizes.hpp>

@@ -1,6 +1,7 @@
 #include "app/check_report.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <lamina/error.hpp>
 #include <lamina/files.hpp>

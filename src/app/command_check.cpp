@@ -1,28 +1,12 @@
 // lamina check: checks whether a mesh file is valid, and measures its quality.
-#include <cstdint>
 #include <memory>
-#include <span>
 #include <string>
-#include <utility>
-#include <vector>
 
-#include <fmt/format.h>
-
-#include <lamina/error.hpp>
-#include <lamina/files.hpp>
-#include <lamina/io.hpp>
-#include <lamina/limits.hpp>
-#include <lamina/mesh.hpp>
 #include <lamina/pipeline.hpp>
 
-#include "app/check_report.hpp"
+#include "app/check_run.hpp"
 #include "app/commands.hpp"
 #include "app/format_help.hpp"
-#include "app/marker_lookup.hpp"
-#include "app/report.hpp"
-#include "app/run_files.hpp"
-#include "app/standard_output.hpp"
-#include "app/summary.hpp"
 #include "app/table_option.hpp"
 
 namespace lamina::app {
@@ -30,120 +14,20 @@ namespace lamina::app {
 namespace {
 
 struct CheckArguments {
-    std::string mesh, format;
-    bool json = false;
-    std::vector<std::string> walls;
-    std::string far_field;
-    bool require_delaunay = false;
-    std::string min_angle, first_height, max_memory;
+    CheckSettings settings;
+    std::string min_angle, first_height, max_memory;  ///< values by the names of tables of options
 };
 
-/// Gives the marker of this name its kind, whatever the file says. Adds a shortcoming where it is missing or empty.
-void require_marker(std::vector<Marker>& markers, const std::string& name, MarkerKind kind,
-                    Shortcomings& shortcomings) {
-    Marker* const marker = find_marker(markers, name, kind);
-    if (marker == nullptr || marker->edges.empty()) {
-        shortcomings.push_back("no marker '" + name + "'");
-    } else {
-        marker->kind = kind;
-    }
-}
-
-/// Throws UsageError where the text is no size.
-WorkLimits memory_limit(const std::string& text) {
+/// Throws UsageError where a value is none of its option.
+CheckSettings settings_of(const CheckArguments& arguments) {
+    CheckSettings settings = arguments.settings;
+    set_by_name(option_table<MeshCheckOptions>(), "min-angle", arguments.min_angle, settings.options);
+    set_by_name(option_table<MeshCheckOptions>(), "first-height", arguments.first_height, settings.options);
+    settings.require_angles = !arguments.min_angle.empty();
     CaseOptions options;
-    set_by_name(option_table<CaseOptions>(), "max-memory", text, options);
-    return options.limits;
-}
-
-std::string defect_lines(std::span<const MeshDefect> defects, std::size_t count) {
-    std::string text;
-    for (const MeshDefect& defect : defects)
-        text += summary_line("defect", fmt::format("{} at ({}, {})", defect.description, defect.at.x, defect.at.y));
-    if (count > defects.size()) text += summary_line("defect", fmt::format("and {} more", count - defects.size()));
-    return text;
-}
-
-std::string check_summary(const std::string& file, const MeshView& mesh, const MeshCheck& check,
-                          const CurvedCheck& curved, RegionOrigin regions, const Shortcomings& shortcomings) {
-    std::string text = fmt::format("{}: {}\n", file, check.valid() && curved.valid() ? "valid" : "not valid");
-    text += defect_lines(check.defects, check.defect_count) + defect_lines(curved.defects, curved.defect_count);
-    for (const std::string& shortcoming : shortcomings) text += summary_line("required", shortcoming);
-    text +=
-        summary_line("mesh", fmt::format("{} vertices, {} triangles, {} quads, {} boundary loops", mesh.points.size(),
-                                         mesh.triangles.size(), mesh.quads.size(), check.boundary_loops));
-    for (const Marker& marker : mesh.markers)
-        text += summary_line(
-            "marker", fmt::format("{} ({}), {} edges", marker.name, kind_name(marker.kind), marker.edges.size()));
-    if (regions == RegionOrigin::estimate)
-        text += summary_line("regions", fmt::format("none in the file: {} thin cells that hang together with a wall "
-                                                    "are taken for the boundary layer; others of its cells count as "
-                                                    "isotropic",
-                                                    check.layer.cells));
-    if (regions == RegionOrigin::none)
-        text +=
-            summary_line("regions", "none in the file, and no thin cells at a wall: every cell counts as isotropic");
-    return text + quality_summary(check);
-}
-
-/// Accepts exempt angles, which lie in sharp corners of frozen edges, as long as they are few.
-void require_angles(const QualitySummary& isotropic, double min_angle_deg, Shortcomings& shortcomings) {
-    constexpr double max_exempt_share = 0.001;
-    if (const std::size_t narrow = isotropic.unexcused(); narrow > 0)
-        shortcomings.push_back(fmt::format("{} triangles have an angle below {} degrees", narrow, min_angle_deg));
-    if (static_cast<double>(isotropic.exempt) > max_exempt_share * static_cast<double>(isotropic.cells))
-        shortcomings.push_back(
-            fmt::format("{} of {} triangles have an angle below {} degrees at a sharp corner of frozen edges",
-                        isotropic.exempt, isotropic.cells, min_angle_deg));
-}
-
-void check(const CheckArguments& arguments) {
-    MeshCheckOptions options;
-    set_by_name(option_table<MeshCheckOptions>(), "min-angle", arguments.min_angle, options);
-    set_by_name(option_table<MeshCheckOptions>(), "first-height", arguments.first_height, options);
-
-    require_format(arguments.mesh, arguments.format, "--input-format");
-    const std::string name = input_name(arguments.mesh);
-    // A third of the memory is left to the mesh itself, of which large files keep in memory what the system has room for.
-    const std::size_t memory =
-        with_default_limits(memory_limit(arguments.max_memory)).max_memory_bytes.value_or(SIZE_MAX);
-    StoredMesh stored = read_stored_mesh(
-        arguments.mesh, {.format = arguments.format, .max_bytes_in_memory = memory / 4, .curved = true});
-    options.max_memory_bytes = memory / 3 * 2;
-    Shortcomings shortcomings;
-    for (const std::string& wall : arguments.walls)
-        require_marker(stored.markers(), wall, MarkerKind::wall, shortcomings);
-    if (!arguments.far_field.empty()) {
-        require_marker(stored.markers(), arguments.far_field, MarkerKind::far_field, shortcomings);
-    }
-    const RegionOrigin regions = require_regions(stored);
-    const MeshView mesh = stored.view();
-    const MeshCheck result = check_file_mesh(mesh, regions, options);
-    const CurvedNodes& nodes = stored.curved();
-    // Proofs take a valid mesh for granted.
-    const bool is_curved = nodes.order > 1 && result.valid();
-    const CurvedCheck curved = is_curved ? check_curved(mesh, nodes) : CurvedCheck{};
-    if (arguments.require_delaunay && result.delaunay_violations > 0) {
-        shortcomings.push_back(fmt::format("{} edges between isotropic triangles violate the Delaunay property",
-                                           result.delaunay_violations));
-    }
-    if (!arguments.min_angle.empty()) require_angles(result.isotropic, options.min_angle_deg, shortcomings);
-
-    if (arguments.json) {
-        Json report = check_report(mesh, result, regions, shortcomings);
-        report["valid"] = result.valid() && curved.valid();
-        if (is_curved) report["curved"] = curved_check_report(nodes.order, curved);
-        print_result(to_text(report));
-    } else {
-        print_result(check_summary(name, mesh, result, curved, regions, shortcomings) +
-                     (is_curved ? curved_line(nodes.order, curved) : ""));
-    }
-    for (const auto& [count, defects] :
-         {std::pair(result.defect_count, &result.defects), std::pair(curved.defect_count, &curved.defects)})
-        if (count > 0)
-            throw MeshError(
-                fmt::format("{}: not valid, {} defects; the first: {}", name, count, defects->front().description));
-    if (!shortcomings.empty()) throw MeshError(name + ": " + shortcomings.front());
+    set_by_name(option_table<CaseOptions>(), "max-memory", arguments.max_memory, options);
+    settings.limits = options.limits;
+    return settings;
 }
 
 }  // namespace
@@ -151,14 +35,16 @@ void check(const CheckArguments& arguments) {
 void add_check_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand("check", "check a mesh and measure its quality; exit code 0 only if valid");
     auto arguments = std::make_shared<CheckArguments>();
-    command->add_option("MESH", arguments->mesh, "mesh file; - for standard input")->required();
-    add_input_format(*command, arguments->format);
-    command->add_flag("--json", arguments->json, "print the result as one JSON object");
-    command->add_option("--wall", arguments->walls, "require a marker of this name, and take it for a wall")
+    command->add_option("MESH", arguments->settings.mesh, "mesh file; - for standard input")->required();
+    add_input_format(*command, arguments->settings.format);
+    command->add_flag("--json", arguments->settings.json, "print the result as one JSON object");
+    command->add_option("--wall", arguments->settings.walls, "require a marker of this name, and take it for a wall")
         ->type_name("NAME");
-    command->add_option("--far", arguments->far_field, "require a marker of this name, and take it for the far field")
+    command
+        ->add_option("--far", arguments->settings.far_field,
+                     "require a marker of this name, and take it for the far field")
         ->type_name("NAME");
-    command->add_flag("--require-delaunay", arguments->require_delaunay,
+    command->add_flag("--require-delaunay", arguments->settings.require_delaunay,
                       "require the Delaunay property of all edges between isotropic triangles (exact test)");
     add_table_option(*command, option_table<MeshCheckOptions>(), "min-angle", arguments->min_angle);
     add_table_option(*command, option_table<MeshCheckOptions>(), "first-height", arguments->first_height);
@@ -167,7 +53,7 @@ void add_check_command(CLI::App& app) {
                      "memory that the check may take, such as 500M or 2G: the arrays of larger files lie in temporary "
                      "files, in the folder that TMPDIR names or in /var/tmp; default: 80 % of what is free")
         ->type_name("SIZE");
-    command->callback([arguments] { check(*arguments); });
+    command->callback([arguments] { run_check(settings_of(*arguments)); });
 }
 
 }  // namespace lamina::app

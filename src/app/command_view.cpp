@@ -11,6 +11,8 @@
 #include <thread>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 #include <lamina/files.hpp>
 #include <lamina/io.hpp>
 #include <lamina/page.hpp>

@@ -5,6 +5,7 @@
 #include <variant>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <lamina/error.hpp>
 

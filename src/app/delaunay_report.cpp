@@ -3,6 +3,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <lamina/io.hpp>
 #include <lamina/mesh.hpp>

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <lamina/error.hpp>
 #include <lamina/solver_case.hpp>

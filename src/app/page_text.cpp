@@ -1,5 +1,7 @@
 #include "app/page_text.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <lamina/places.hpp>
 
 #include "app/options.hpp"

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <nlohmann/json.hpp>
+
 #include <lamina/version.hpp>
 
 #include "app/conditions_block.hpp"
