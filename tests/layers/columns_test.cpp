@@ -14,6 +14,7 @@
 #include "layers/heights/heights.hpp"
 #include "layers/layer.hpp"
 #include "layers/layered_rays.hpp"
+#include "layers/room/counts.hpp"
 #include "layers/stages.hpp"
 #include "support/layers.hpp"
 #include "support/shapes.hpp"
@@ -92,6 +93,26 @@ TEST(Columns, WithFewerLayersForTheirNeighboursEndAtTheSameHeight) {
     for (const std::size_t i : {0, 3}) {
         EXPECT_EQ(made.column(i).layers, made.column(1).layers + 1);
         EXPECT_GT(made.column(i).stretch.factor, 1);
+    }
+}
+
+/// A small body between two rays meets no front, and lies in no cell of another element all the same.
+TEST(Columns, EndBelowAnElementBetweenTwoRays) {
+    const Point middle{0, 0.9};
+    RaySet set;
+    for (const Point p : {Point{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}}) set.lines.push_back({p, unit(p)});
+    set.begin.push_back(set.lines.size());
+    for (const Point p : {Point{0.01, -0.01}, {0, 0.01}, {-0.01, -0.01}}) set.lines.push_back({middle + p, unit(p)});
+    set.begin.push_back(set.lines.size());
+    std::vector<double> heights;
+    for (int n = 0; n <= 10; ++n) heights.push_back(0.1 * n);
+    std::vector<HeightColumn> columns(4, {.layers = 10});
+    columns.resize(set.lines.size(), {.layers = 0});
+    const std::vector<std::uint32_t> made =
+        layers::layer_counts(set, LayerHeights(heights, columns), {10, 10, 10, 10, 0, 0, 0});
+    for (const std::size_t i : {2, 3}) {
+        EXPECT_GT(made[i], 0u);
+        EXPECT_LT(set.lines[i].origin.y + heights[made[i]] * set.lines[i].direction.y, middle.y - 0.01);
     }
 }
 
