@@ -10,6 +10,7 @@
 - A public header includes public headers alone, of its own folder or of those that this folder depends on.
 - Inside a folder headers do not include each other in a circle.
 - Stages get their own options: only the sources of src/pipeline in WHOLE_OPTIONS take CaseOptions, the options of all.
+- Commands declare their options by app/command_line.hpp: only the sources in COMMAND_LINE include CLI11.
 - The drawing docs/images/folders.svg shows these dependencies.
 
 Prints one line for each violation; the exit status is 1 where there is one. --table prints who may include whom, --dot
@@ -35,6 +36,9 @@ ROOMS = {
 
 # The sources of src/pipeline that see the options of all stages: what is public, what checks and derives them, and run().
 WHOLE_OPTIONS = {"budget", "compressible_flow", "curve_mesh", "forecast", "options", "pipeline", "presets", "refined", "run"}
+
+# The sources of src/app that include CLI11, whose headers take longer to compile than most commands.
+COMMAND_LINE = {"arguments.cpp", "command_facts.cpp", "command_line.cpp", "mesh_command_options.cpp", "run_program.cpp"}
 
 # The private headers that app/ may include: its tables of options have rows of their own.
 PROGRAM_HEADERS = {"core/option_builders.hpp", "core/suggestion.hpp"}
@@ -138,6 +142,12 @@ def check_options():
             if re.search(r"\bCaseOptions\b(?!::)", line.split("//")[0]):
                 yield f"{file.relative_to(REPOSITORY)}:{number}: a stage takes CaseOptions: hand it its own options"
 
+def check_command_line():
+    """Yields the sources of the program that include CLI11 beside those that read the command line."""
+    for file in sorted((SOURCE / "app").glob("*.[ch]pp")):
+        if file.name not in COMMAND_LINE and "#include <CLI/" in file.read_text():
+            yield f"{file.relative_to(REPOSITORY)}: includes CLI11: declare options by app/command_line.hpp"
+
 def check_public(file, allowed):
     folder = owner(file.stem)
     for number, kind, path in includes(file):
@@ -208,6 +218,7 @@ def main():
         violations += check_public(file, allowed)
     violations += circles()
     violations += check_options()
+    violations += check_command_line()
     violations += check_drawing("\n".join(as_dot(allowed)))
     print("\n".join(violations) or "includes run one way")
     return 1 if violations else 0

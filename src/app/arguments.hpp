@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include <CLI/CLI.hpp>
+#include "app/command_line.hpp"
 
 namespace lamina::app {
 

@@ -95,82 +95,75 @@ constexpr const char* group_of_adapt = "Adaptation";
 
 /// Adds the solver and the folder.
 void add_solver_and_folder(CLI::App& command, AdaptArguments& arguments) {
-    command
-        .add_option("--solver", arguments.solver,
-                    "openfoam, su2, or a command, whose words blanks divide and quotes keep together. It runs in the "
-                    "folder of the round, without a shell, where mesh.vtu, mesh.su2, case.toml and, from round 1 on, "
-                    "start.vtu are, and leaves solution.vtu or solution.cgns, and forces.csv with the columns CL, CD "
-                    "and steady (and "
-                    "CM, y_plus, iterations, residual); {case} stands for the folder")
-        ->required()
-        ->type_name("openfoam|su2|COMMAND")
-        ->group(group_of_adapt);
-    command
-        .add_option("-o,--output", arguments.folder,
-                    "folder of the rounds, round_0, round_1, ..., and of adapt.csv and adapt.html; rounds that are "
-                    "there are kept")
-        ->required()
-        ->type_name("FOLDER")
-        ->group(group_of_adapt);
+    add_option(command, "--solver", arguments.solver,
+               "openfoam, su2, or a command, whose words blanks divide and quotes keep together. It runs in the "
+               "folder of the round, without a shell, where mesh.vtu, mesh.su2, case.toml and, from round 1 on, "
+               "start.vtu are, and leaves solution.vtu or solution.cgns, and forces.csv with the columns CL, CD "
+               "and steady (and "
+               "CM, y_plus, iterations, residual); {case} stands for the folder")
+        .required()
+        .type_name("openfoam|su2|COMMAND")
+        .group(group_of_adapt);
+    add_option(command, "-o,--output", arguments.folder,
+               "folder of the rounds, round_0, round_1, ..., and of adapt.csv and adapt.html; rounds that are "
+               "there are kept")
+        .required()
+        .type_name("FOLDER")
+        .group(group_of_adapt);
 }
 
 /// Adds the options of how many rounds there are, and of how many vertices.
 void add_round_options(CLI::App& command, AdaptArguments& arguments) {
-    command.add_option("--rounds", arguments.settings.rounds, "number of meshes at most [5]")
-        ->type_name("N")
-        ->group(group_of_adapt);
+    add_option(command, "--rounds", arguments.settings.rounds, "number of meshes at most [5]")
+        .type_name("N")
+        .group(group_of_adapt);
     add_table_option(command, option_table<SolutionSizeOptions>(), "vertices", arguments.sizes["vertices"])
-        ->group(group_of_adapt);
-    command
-        .add_option("--sequence", arguments.sequence,
-                    "numbers of vertices of the first rounds; the last one is that of all further rounds")
-        ->delimiter(',')
-        ->type_name("N,...")
-        ->group(group_of_adapt)
-        ->excludes(command.get_option("--vertices"));
-    command
-        .add_option("--tolerance", arguments.settings.tolerance,
-                    "the loop ends where lift and drag change by a smaller share in two rounds in a row [0.001]")
-        ->type_name("T")
-        ->group(group_of_adapt);
+        .group(group_of_adapt);
+    add_option(command, "--sequence", arguments.sequence,
+               "numbers of vertices of the first rounds; the last one is that of all further rounds")
+        .delimiter(',')
+        .type_name("N,...")
+        .group(group_of_adapt)
+        .excludes("--vertices");
+    add_option(command, "--tolerance", arguments.settings.tolerance,
+               "the loop ends where lift and drag change by a smaller share in two rounds in a row [0.001]")
+        .type_name("T")
+        .group(group_of_adapt);
 }
 
 /// Adds the options of what is solved, and what sizes follow.
 void add_goal_options(CLI::App& command, AdaptArguments& arguments) {
-    command
-        .add_option("--goal", arguments.goal,
-                    "what is to be found well; for drag and lift an adjoint solution weighs the errors of the flow: "
-                    "openfoam finds "
-                    "it in incompressible flow, and a command leaves U, p, Ua and pa, as OpenFOAM names them [fields]")
-        ->type_name("fields|drag|lift")
-        ->group(group_of_adapt);
+    add_option(command, "--goal", arguments.goal,
+               "what is to be found well; for drag and lift an adjoint solution weighs the errors of the flow: "
+               "openfoam finds "
+               "it in incompressible flow, and a command leaves U, p, Ua and pa, as OpenFOAM names them [fields]")
+        .type_name("fields|drag|lift")
+        .group(group_of_adapt);
     add_table_option(command, option_table<SolutionSizeOptions>(), "norm", arguments.sizes["norm"])
-        ->group(group_of_adapt);
-    command
-        .add_option("--field", arguments.settings.fields,
-                    "fields to interpolate well, as in lamina sizes [openfoam: mag(U),p; else Mach,Pressure]")
-        ->delimiter(',')
-        ->type_name("NAME[,NAME...]")
-        ->group(group_of_adapt);
+        .group(group_of_adapt);
+    add_option(command, "--field", arguments.settings.fields,
+               "fields to interpolate well, as in lamina sizes [openfoam: mag(U),p; else Mach,Pressure]")
+        .delimiter(',')
+        .type_name("NAME[,NAME...]")
+        .group(group_of_adapt);
     add_table_option(command, option_table<SolutionSizeOptions>(), "max-change", arguments.sizes["max-change"])
-        ->group(group_of_adapt);
-    command
-        .add_option("--anisotropy", arguments.anisotropy,
-                    "largest ratio of the lengths of triangles beyond the layer, which are short where the fields "
-                    "bend; none: they are isotropic")
-        ->capture_default_str()
-        ->type_name("RATIO|none")
-        ->group(group_of_adapt);
+        .group(group_of_adapt);
+    add_option(command, "--anisotropy", arguments.anisotropy,
+               "largest ratio of the lengths of triangles beyond the layer, which are short where the fields "
+               "bend; none: they are isotropic")
+        .show_default()
+        .type_name("RATIO|none")
+        .group(group_of_adapt);
     add_table_option(command, option_table<SolverCaseOptions>(), "turbulence", arguments.turbulence)
-        ->group(group_of_adapt);
-    command.add_flag("--dry-run", arguments.settings.dry_run, "say what would be done, and do nothing")
-        ->group(group_of_adapt);
+        .group(group_of_adapt);
+    add_flag(command, "--dry-run", arguments.settings.dry_run, "say what would be done, and do nothing")
+        .group(group_of_adapt);
 }
 
 }  // namespace
 
 void add_adapt_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("adapt", "mesh, solve and mesh again by the solution, in one loop");
+    CLI::App* command = add_command(app, "adapt", "mesh, solve and mesh again by the solution, in one loop");
     auto arguments = std::make_shared<AdaptArguments>();
     add_solver_and_folder(*command, *arguments);
     add_round_options(*command, *arguments);
@@ -178,7 +171,7 @@ void add_adapt_command(CLI::App& app) {
     arguments->mesh = add_mesh_options(
         *command, {"output", "format", "order", "parts", "span", "span-cells", "span-ends", "wall-distance",
                    "background", "stream", "wall-data", "report", "html", "vertices", "cells"});
-    command->callback([arguments] { adapt(*arguments); });
+    run_with(*command, [arguments] { adapt(*arguments); });
 }
 
 }  // namespace lamina::app

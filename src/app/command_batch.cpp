@@ -187,17 +187,13 @@ void batch(const GivenOptions& options, const BatchArguments& arguments) {
     const Shard shard = parse_shard(arguments.shard);
     const std::vector<BatchCondition> conditions = conditions_of_batch(arguments.conditions);
     std::vector<BatchJob> all;
-    std::string first_output;
-    for (const auto& [option, given] : options) {
-        if (option->name == "output" && given->count() > 0) first_output = given->results().front();
-        if (!given->get_positional()) continue;
-        for (const std::string& input : given->results())
-            for (BatchJob& job : jobs_of(options, input, conditions)) all.push_back(std::move(job));
-    }
+    for (const std::string& input : given_texts(options, "input"))
+        for (BatchJob& job : jobs_of(options, input, conditions)) all.push_back(std::move(job));
     if (all.empty()) throw UsageError("no INPUT: give airfoil files, naca:DIGITS or case files");
     for (const BatchJob& job : all)
         if (job.mesh_case.outputs.empty()) throw UsageError("no output: give -o 'FOLDER/{name}.EXTENSION'");
-    if (first_output.empty()) first_output = all.front().mesh_case.outputs.front();
+    const std::vector<std::string> outputs = given_texts(options, "output");
+    const std::string first_output = (outputs.empty() ? all.front().mesh_case.outputs : outputs).front();
     BatchSettings settings;
     settings.jobs = arguments.jobs;
     const std::string stem = summary_stem(arguments, first_output, shard);
@@ -229,60 +225,53 @@ void batch(const GivenOptions& options, const BatchArguments& arguments) {
 }  // namespace
 
 void add_batch_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("batch", "make the meshes of many inputs, several at a time");
+    CLI::App* command = add_command(app, "batch", "make the meshes of many inputs, several at a time");
     auto options = std::make_shared<GivenOptions>(add_mesh_options(*command));
     auto arguments = std::make_shared<BatchArguments>();
-    command
-        ->add_option("--jobs", arguments->jobs, "number of meshes made at a time, each on one thread; 0: one per core")
-        ->type_name("N")
-        ->group("Batch");
-    command
-        ->add_option(
-            "--sweep", arguments->conditions.sweeps,
-            "values of an option to combine, as in reynolds=1e5,1e6, or ranges of them, as in alpha=-4:18:2; may be "
-            "given several times, for all combinations")
-        ->type_name("OPTION=A,B:C:STEP,...")
-        ->allow_extra_args(false)
-        ->group("Batch");
-    CLI::Option* intervals =
-        command
-            ->add_option("--sample", arguments->conditions.samples,
-                         "interval of an option to take samples from, evenly or, with :log, by the logarithm; with "
-                         "several of them, together a Latin hypercube")
-            ->type_name("OPTION=A:B[:log]")
-            ->allow_extra_args(false)
-            ->group("Batch");
-    CLI::Option* number = command
-                              ->add_option("--samples", arguments->conditions.number_of_samples,
-                                           "number of samples of these intervals, for each combination of --sweep")
-                              ->type_name("N")
-                              ->check(CLI::Range(1, 100000))
-                              ->needs(intervals)
-                              ->group("Batch");
-    intervals->needs(number);
-    command->add_option("--seed", arguments->conditions.seed, "other samples, as good as those of any other seed")
-        ->type_name("N")
-        ->capture_default_str()
-        ->needs(intervals)
-        ->group("Batch");
-    command->add_option("--shard", arguments->shard, "make the I-th of N parts of the meshes alone, for N machines")
-        ->type_name("I/N")
-        ->group("Batch");
-    command
-        ->add_option("--template", arguments->template_mesh,
-                     "mesh whose cells all meshes get, moved to the shapes as lamina morph does: options of layers and "
-                     "sizes count for nothing then, and shapes that it cannot reach are rows that say so")
-        ->type_name("MESH")
-        ->group("Batch");
-    command
-        ->add_option(
-            "--summary", arguments->summary,
-            "table of all meshes to write; beside it, with the extension .jsonl, a line for each as soon as it "
-            "is finished; else summary.csv beside the outputs")
-        ->type_name("FILE.csv")
-        ->group("Batch");
-    command->footer(format_help());
-    command->callback([options, arguments] { batch(*options, *arguments); });
+    add_option(*command, "--jobs", arguments->jobs,
+               "number of meshes made at a time, each on one thread; 0: one per core")
+        .type_name("N")
+        .group("Batch");
+    add_option(*command, "--sweep", arguments->conditions.sweeps,
+               "values of an option to combine, as in reynolds=1e5,1e6, or ranges of them, as in alpha=-4:18:2; may be "
+               "given several times, for all combinations")
+        .type_name("OPTION=A,B:C:STEP,...")
+        .one_at_a_time()
+        .group("Batch");
+    const AddedOption intervals =
+        add_option(*command, "--sample", arguments->conditions.samples,
+                   "interval of an option to take samples from, evenly or, with :log, by the logarithm; with "
+                   "several of them, together a Latin hypercube")
+            .type_name("OPTION=A:B[:log]")
+            .one_at_a_time()
+            .group("Batch");
+    add_option(*command, "--samples", arguments->conditions.number_of_samples,
+               "number of samples of these intervals, for each combination of --sweep")
+        .type_name("N")
+        .in_range(1, 100000)
+        .needs("--sample")
+        .group("Batch");
+    intervals.needs("--samples");
+    add_option(*command, "--seed", arguments->conditions.seed, "other samples, as good as those of any other seed")
+        .type_name("N")
+        .show_default()
+        .needs("--sample")
+        .group("Batch");
+    add_option(*command, "--shard", arguments->shard, "make the I-th of N parts of the meshes alone, for N machines")
+        .type_name("I/N")
+        .group("Batch");
+    add_option(*command, "--template", arguments->template_mesh,
+               "mesh whose cells all meshes get, moved to the shapes as lamina morph does: options of layers and "
+               "sizes count for nothing then, and shapes that it cannot reach are rows that say so")
+        .type_name("MESH")
+        .group("Batch");
+    add_option(*command, "--summary", arguments->summary,
+               "table of all meshes to write; beside it, with the extension .jsonl, a line for each as soon as it "
+               "is finished; else summary.csv beside the outputs")
+        .type_name("FILE.csv")
+        .group("Batch");
+    set_footer(*command, format_help());
+    run_with(*command, [options, arguments] { batch(*options, *arguments); });
 }
 
 }  // namespace lamina::app

@@ -33,27 +33,25 @@ CheckSettings settings_of(const CheckArguments& arguments) {
 }  // namespace
 
 void add_check_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("check", "check a mesh and measure its quality; exit code 0 only if valid");
+    CLI::App* command = add_command(app, "check", "check a mesh and measure its quality; exit code 0 only if valid");
     auto arguments = std::make_shared<CheckArguments>();
-    command->add_option("MESH", arguments->settings.mesh, "mesh file; - for standard input")->required();
+    add_option(*command, "MESH", arguments->settings.mesh, "mesh file; - for standard input").required();
     add_input_format(*command, arguments->settings.format);
-    command->add_flag("--json", arguments->settings.json, "print the result as one JSON object");
-    command->add_option("--wall", arguments->settings.walls, "require a marker of this name, and take it for a wall")
-        ->type_name("NAME");
-    command
-        ->add_option("--far", arguments->settings.far_field,
-                     "require a marker of this name, and take it for the far field")
-        ->type_name("NAME");
-    command->add_flag("--require-delaunay", arguments->settings.require_delaunay,
-                      "require the Delaunay property of all edges between isotropic triangles (exact test)");
+    add_flag(*command, "--json", arguments->settings.json, "print the result as one JSON object");
+    add_option(*command, "--wall", arguments->settings.walls, "require a marker of this name, and take it for a wall")
+        .type_name("NAME");
+    add_option(*command, "--far", arguments->settings.far_field,
+               "require a marker of this name, and take it for the far field")
+        .type_name("NAME");
+    add_flag(*command, "--require-delaunay", arguments->settings.require_delaunay,
+             "require the Delaunay property of all edges between isotropic triangles (exact test)");
     add_table_option(*command, option_table<MeshCheckOptions>(), "min-angle", arguments->min_angle);
     add_table_option(*command, option_table<MeshCheckOptions>(), "first-height", arguments->first_height);
-    command
-        ->add_option("--max-memory", arguments->max_memory,
-                     "memory that the check may take, such as 500M or 2G: the arrays of larger files lie in temporary "
-                     "files, in the folder that TMPDIR names or in /var/tmp; default: 80 % of what is free")
-        ->type_name("SIZE");
-    command->callback([arguments] { run_check(settings_of(*arguments)); });
+    add_option(*command, "--max-memory", arguments->max_memory,
+               "memory that the check may take, such as 500M or 2G: the arrays of larger files lie in temporary "
+               "files, in the folder that TMPDIR names or in /var/tmp; default: 80 % of what is free")
+        .type_name("SIZE");
+    run_with(*command, [arguments] { run_check(settings_of(*arguments)); });
 }
 
 }  // namespace lamina::app

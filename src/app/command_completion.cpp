@@ -38,12 +38,12 @@ void print_for(const CLI::App& app, const std::string& shell) {
 
 void add_completion_command(CLI::App& app) {
     CLI::App* command =
-        app.add_subcommand("completion", "print the script that completes the command line in a shell, or the manual");
+        add_command(app, "completion", "print the script that completes the command line in a shell, or the manual");
     auto shell = std::make_shared<std::string>();
-    command->add_option("SHELL", *shell, "bash, zsh or fish; man prints the manual page instead")
-        ->required()
-        ->type_name("bash|zsh|fish|man");
-    command->callback([&app, shell] { print_for(app, *shell); });
+    add_option(*command, "SHELL", *shell, "bash, zsh or fish; man prints the manual page instead")
+        .required()
+        .type_name("bash|zsh|fish|man");
+    run_with(*command, [&app, shell] { print_for(app, *shell); });
 }
 
 }  // namespace lamina::app

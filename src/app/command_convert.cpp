@@ -22,7 +22,7 @@ namespace lamina::app {
 namespace {
 
 struct ConvertArguments {
-    std::string from, from_format, to;
+    std::string from, from_format, to, span_ends;
     WriteOptions options;
     std::vector<std::string> walls, far_fields, symmetries;
 };
@@ -65,54 +65,47 @@ void convert(const ConvertArguments& arguments) {
 }  // namespace
 
 void add_convert_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("convert", "convert a mesh from one format to another");
+    CLI::App* command = add_command(app, "convert", "convert a mesh from one format to another");
     auto arguments = std::make_shared<ConvertArguments>();
-    command->add_option("IN", arguments->from, "mesh file; - for standard input")->required();
-    command
-        ->add_option("OUT", arguments->to,
-                     "mesh file; its extension says the format, unless --format does; - for standard output")
-        ->required();
+    add_option(*command, "IN", arguments->from, "mesh file; - for standard input").required();
+    add_option(*command, "OUT", arguments->to,
+               "mesh file; its extension says the format, unless --format does; - for standard output")
+        .required();
     add_input_format(*command, arguments->from_format);
-    command->add_option("--format", arguments->options.format, "format of OUT")->type_name(format_names());
-    command->add_option("--wall", arguments->walls, "set the kind of this marker to wall; may be given several times")
-        ->type_name("NAME")
-        ->allow_extra_args(false);
-    command
-        ->add_option("--far", arguments->far_fields,
-                     "set the kind of this marker to far field; may be given several times")
-        ->type_name("NAME")
-        ->allow_extra_args(false);
-    command
-        ->add_option("--symmetry-marker", arguments->symmetries,
-                     "set the kind of this marker to symmetry; may be given several times")
-        ->type_name("NAME")
-        ->allow_extra_args(false);
-    command
-        ->add_option("--span", arguments->options.span,
-                     "depth in units of the mesh, which becomes one of prisms and hexahedra in space: CGNS, VTU, "
-                     "msh22-extruded, OpenFOAM, FUN3D")
-        ->check(CLI::PositiveNumber)
-        ->type_name("L");
-    command->add_option("--span-cells", arguments->options.span_cells, "number of cells across --span")
-        ->check(CLI::Range(std::size_t{1}, std::size_t{100'000}))
-        ->type_name("N");
-    command
-        ->add_option_function<std::string>(
-            "--span-ends",
-            [arguments](const std::string& ends) { arguments->options.span_periodic = ends == "periodic"; },
-            "what the two planes at the ends of --span are")
-        ->check(CLI::IsMember({"symmetry", "periodic"}))
-        ->type_name("symmetry|periodic");
-    command->add_flag("--wall-distance", arguments->options.wall_distance,
-                      "write the distance to the nearest wall as point data, in VTU files");
-    command
-        ->add_option(
-            "--parts", arguments->options.parts,
-            "number of parts of equal size: of PVTU files, and of cellDecomposition beside OpenFOAM's polyMesh")
-        ->check(CLI::Range(std::size_t{1}, max_parts))
-        ->type_name("N");
-    command->footer(format_help());
-    command->callback([arguments] { convert(*arguments); });
+    add_option(*command, "--format", arguments->options.format, "format of OUT").type_name(format_names());
+    add_option(*command, "--wall", arguments->walls, "set the kind of this marker to wall; may be given several times")
+        .type_name("NAME")
+        .one_at_a_time();
+    add_option(*command, "--far", arguments->far_fields,
+               "set the kind of this marker to far field; may be given several times")
+        .type_name("NAME")
+        .one_at_a_time();
+    add_option(*command, "--symmetry-marker", arguments->symmetries,
+               "set the kind of this marker to symmetry; may be given several times")
+        .type_name("NAME")
+        .one_at_a_time();
+    add_option(*command, "--span", arguments->options.span,
+               "depth in units of the mesh, which becomes one of prisms and hexahedra in space: CGNS, VTU, "
+               "msh22-extruded, OpenFOAM, FUN3D")
+        .positive()
+        .type_name("L");
+    add_option(*command, "--span-cells", arguments->options.span_cells, "number of cells across --span")
+        .in_range(std::size_t{1}, std::size_t{100'000})
+        .type_name("N");
+    add_option(*command, "--span-ends", arguments->span_ends, "what the two planes at the ends of --span are")
+        .one_of({"symmetry", "periodic"})
+        .type_name("symmetry|periodic");
+    add_flag(*command, "--wall-distance", arguments->options.wall_distance,
+             "write the distance to the nearest wall as point data, in VTU files");
+    add_option(*command, "--parts", arguments->options.parts,
+               "number of parts of equal size: of PVTU files, and of cellDecomposition beside OpenFOAM's polyMesh")
+        .in_range(std::size_t{1}, max_parts)
+        .type_name("N");
+    set_footer(*command, format_help());
+    run_with(*command, [arguments] {
+        arguments->options.span_periodic = arguments->span_ends == "periodic";
+        convert(*arguments);
+    });
 }
 
 }  // namespace lamina::app

@@ -1,6 +1,7 @@
 // lamina delaunay: triangulates and refines the contents of Triangle's files.
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -36,7 +37,7 @@ struct DelaunayArguments {
     std::string file, format;
     std::string stem;
     std::string min_angle, max_area, drop_flat, threads, max_triangles, max_memory;
-    CLI::Option* merge = nullptr;
+    std::optional<std::string> merge;  ///< empty text: equal points alone
     std::string report;
     bool quiet = false, strict = false;
     DelaunaySettings settings;  ///< the flags
@@ -80,10 +81,8 @@ DelaunaySettings settings_of(const DelaunayArguments& arguments) {
     ConstrainedOptions constrained;
     set_by_name(option_table<ConstrainedOptions>(), "drop-flat", arguments.drop_flat, constrained);
     settings.drop_flat = constrained.drop_flat;
-    if (!arguments.merge->empty()) {
-        // Without a distance, the option holds what a switch does.
-        const std::string text = arguments.merge->results().front();
-        settings.merge_distance = text.empty() || text == "true" ? 0 : parse_real(text, "option --merge");
+    if (arguments.merge) {
+        settings.merge_distance = arguments.merge->empty() ? 0 : parse_real(*arguments.merge, "option --merge");
         if (!numbers_from_to(0, max_exact_coordinate).contains(*settings.merge_distance))
             throw UsageError("option --merge: must be " + numbers_from_to(0, max_exact_coordinate).text());
     }
@@ -149,50 +148,46 @@ void run(const DelaunayArguments& arguments) {
 }  // namespace
 
 void add_delaunay_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand(
-        "delaunay", "triangulate the points and segments of Triangle's files, and refine the triangulation");
+    CLI::App* command = add_command(
+        app, "delaunay", "triangulate the points and segments of Triangle's files, and refine the triangulation");
     auto arguments = std::make_shared<DelaunayArguments>();
-    command
-        ->add_option("FILE", arguments->file,
-                     "FILE.poly (segments, holes, regions) or FILE.node (points); - for standard input")
-        ->required();
-    command->add_option("--input-format", arguments->format, "format of FILE, node or poly; else its extension says it")
-        ->type_name("node|poly");
-    command
-        ->add_option("-o,--output", arguments->stem,
-                     "write STEM.node, STEM.ele and, for a .poly file, STEM.poly [FILE.1]")
-        ->type_name("STEM");
+    add_option(*command, "FILE", arguments->file,
+               "FILE.poly (segments, holes, regions) or FILE.node (points); - for standard input")
+        .required();
+    add_option(*command, "--input-format", arguments->format,
+               "format of FILE, node or poly; else its extension says it")
+        .type_name("node|poly");
+    add_option(*command, "-o,--output", arguments->stem,
+               "write STEM.node, STEM.ele and, for a .poly file, STEM.poly [FILE.1]")
+        .type_name("STEM");
     add_table_option(*command, option_table<RefineOptions>(), "min-angle", arguments->min_angle);
-    command
-        ->add_option("--max-area", arguments->max_area,
-                     "largest area of a triangle, in squared units of the input; > 0")
-        ->type_name("A");
-    command->add_flag("--keep-border", arguments->settings.keep_border, "split no segment and no edge of the boundary");
-    command->add_flag("--keep-hull", arguments->settings.keep_hull,
-                      "keep the triangles of the convex hull that lie outside the segments");
-    command->add_flag(
-        "--insert-crossings", arguments->settings.insert_crossings,
-        "add a vertex where segments cross, which is an error otherwise, and lead segments through vertices "
-        "that they miss by rounding alone");
+    add_option(*command, "--max-area", arguments->max_area,
+               "largest area of a triangle, in squared units of the input; > 0")
+        .type_name("A");
+    add_flag(*command, "--keep-border", arguments->settings.keep_border,
+             "split no segment and no edge of the boundary");
+    add_flag(*command, "--keep-hull", arguments->settings.keep_hull,
+             "keep the triangles of the convex hull that lie outside the segments");
+    add_flag(*command, "--insert-crossings", arguments->settings.insert_crossings,
+             "add a vertex where segments cross, which is an error otherwise, and lead segments through vertices "
+             "that they miss by rounding alone");
     add_table_option(*command, option_table<ConstrainedOptions>(), "drop-flat", arguments->drop_flat);
-    arguments->merge =
-        command
-            ->add_option(
-                "--merge",
-                "take points at most TOL apart, in units of the input, for the same, equal ones where TOL is left "
-                "out, and with --insert-crossings lead segments through vertices at most TOL away; write --merge=TOL, "
-                "or FILE before --merge")
-            ->expected(0, 1)
-            ->check(&require_merge_distance, "")
-            ->type_name("[TOL]");
+    add_option_with_or_without_value(
+        *command, "--merge", arguments->merge,
+        "take points at most TOL apart, in units of the input, for the same, equal ones where TOL is left "
+        "out, and with --insert-crossings lead segments through vertices at most TOL away; write --merge=TOL, "
+        "or FILE before --merge")
+        .check(&require_merge_distance)
+        .type_name("[TOL]");
     add_table_option(*command, option_table<CaseOptions>(), "threads", arguments->threads);
     add_table_option(*command, option_table<CaseOptions>(), "max-triangles", arguments->max_triangles);
     add_table_option(*command, option_table<CaseOptions>(), "max-memory", arguments->max_memory);
-    command->add_option("--report", arguments->report, "JSON report of the run to write")->type_name("FILE");
-    command->add_flag("--quiet", arguments->quiet, "print no summary and no progress; warnings and errors are printed");
-    command->add_flag("--strict", arguments->strict,
-                      "end with exit code 4 where there is any warning; the outputs are written");
-    command->callback([arguments] { run(*arguments); });
+    add_option(*command, "--report", arguments->report, "JSON report of the run to write").type_name("FILE");
+    add_flag(*command, "--quiet", arguments->quiet,
+             "print no summary and no progress; warnings and errors are printed");
+    add_flag(*command, "--strict", arguments->strict,
+             "end with exit code 4 where there is any warning; the outputs are written");
+    run_with(*command, [arguments] { run(*arguments); });
 }
 
 }  // namespace lamina::app

@@ -103,34 +103,30 @@ void flow(const FlowArguments& arguments) {
 }  // namespace
 
 void add_flow_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("flow", "compute the flow round airfoils, without a mesh");
+    CLI::App* command = add_command(app, "flow", "compute the flow round airfoils, without a mesh");
     auto arguments = std::make_shared<FlowArguments>();
-    command->add_option("INPUT", arguments->inputs, input_help);
+    add_option(*command, "INPUT", arguments->inputs, input_help);
     add_repeated_table_option(*command, option_table<GeometryOptions>(), "sheet", arguments->sheets);
     for (const char* name : {"alpha", "mach", "reynolds", "velocity", "viscosity", "chord"})
         add_table_option(*command, option_table<FlowConditions>(), name, arguments->conditions[name]);
     add_transition_options(*command, arguments->transition);
     for (const char* name : {"ground", "tunnel", "periodic"})
         add_table_option(*command, option_table<FarFieldOptions>(), name, arguments->walls[name]);
-    command
-        ->add_option("-o,--output", arguments->table,
-                     "CSV file to write: speed, pressure and boundary layer along each side, or pressure, "
-                     "Mach number and boundary layer where it is faster than sound; of a range of angles the polar, as "
-                     "XFOIL writes it, or .csv or .json; - for standard output")
-        ->type_name("FILE");
-    command
-        ->add_option("--picture", arguments->picture,
-                     "picture of the pressure coefficients, or of a polar's lift, to write; its extension says the "
-                     "format: .png, "
-                     ".svg or .pdf")
-        ->type_name("FILE");
-    command
-        ->add_option(
-            "--mach-picture", arguments->mach_picture,
-            "picture of the Mach numbers round the bodies to write, where the flow is faster than sound: .png, "
-            ".svg or .pdf")
-        ->type_name("FILE");
-    command->callback([arguments] { flow(*arguments); });
+    add_option(*command, "-o,--output", arguments->table,
+               "CSV file to write: speed, pressure and boundary layer along each side, or pressure, "
+               "Mach number and boundary layer where it is faster than sound; of a range of angles the polar, as "
+               "XFOIL writes it, or .csv or .json; - for standard output")
+        .type_name("FILE");
+    add_option(*command, "--picture", arguments->picture,
+               "picture of the pressure coefficients, or of a polar's lift, to write; its extension says the "
+               "format: .png, "
+               ".svg or .pdf")
+        .type_name("FILE");
+    add_option(*command, "--mach-picture", arguments->mach_picture,
+               "picture of the Mach numbers round the bodies to write, where the flow is faster than sound: .png, "
+               ".svg or .pdf")
+        .type_name("FILE");
+    run_with(*command, [arguments] { flow(*arguments); });
 }
 
 }  // namespace lamina::app

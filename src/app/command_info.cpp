@@ -16,10 +16,10 @@
 namespace lamina::app {
 
 void add_info_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("info", "describe airfoils: what was read, repaired and detected");
+    CLI::App* command = add_command(app, "info", "describe airfoils: what was read, repaired and detected");
     auto inputs = std::make_shared<std::vector<std::string>>();
     auto given = std::make_shared<std::map<std::string, std::string>>();
-    command->add_option("INPUT", *inputs, input_help);
+    add_option(*command, "INPUT", *inputs, input_help);
     auto surface = std::make_shared<std::map<std::string, std::string>>();
     for (const char* name : {"close", "mirror-half"})
         add_table_flag(*command, option_table<GeometryOptions>(), name, (*given)[name]);
@@ -32,7 +32,7 @@ void add_info_command(CLI::App& app) {
         add_table_option(*command, option_table<SurfaceOptions>(), name, (*surface)[name]);
     auto chord = std::make_shared<std::string>();
     add_table_option(*command, option_table<FlowConditions>(), "chord", *chord);
-    command->callback([inputs, given, repeated, surface, chord] {
+    run_with(*command, [inputs, given, repeated, surface, chord] {
         MeshCase mesh_case = case_of_inputs(*inputs);
         for (const auto& [name, text] : *given)
             set_by_name(option_table<GeometryOptions>(), name, text, mesh_case.options.geometry);

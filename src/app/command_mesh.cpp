@@ -14,19 +14,18 @@
 namespace lamina::app {
 
 void add_mesh_command(CLI::App& app, Ranks* ranks) {
-    CLI::App* command = app.add_subcommand("mesh", "make a mesh round airfoils and write it");
+    CLI::App* command = add_command(app, "mesh", "make a mesh round airfoils and write it");
     auto options = std::make_shared<GivenOptions>(add_mesh_options(*command));
-    command->footer(format_help());
+    set_footer(*command, format_help());
     auto dump = std::make_shared<bool>(false);
-    command->add_flag("--dump-config", *dump, "print the options in force as a case file, and do nothing else")
-        ->group("Run" + std::string(further_options));
+    add_flag(*command, "--dump-config", *dump, "print the options in force as a case file, and do nothing else")
+        .group("Run" + std::string(further_options));
     auto dry_run = std::make_shared<bool>(false);
-    command
-        ->add_flag("--dry-run", *dry_run,
-                   "say first height, y+, thickness, cells, memory and time without a mesh, and write no file but the "
-                   "report")
-        ->group("Run");
-    command->callback([options, dump, dry_run, ranks] {
+    add_flag(*command, "--dry-run", *dry_run,
+             "say first height, y+, thickness, cells, memory and time without a mesh, and write no file but the "
+             "report")
+        .group("Run");
+    run_with(*command, [options, dump, dry_run, ranks] {
         MeshCase mesh_case = case_of_command_line(*options);
         prefer_quads_for_openfoam(mesh_case);
         require_consistent(mesh_case);

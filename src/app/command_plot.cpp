@@ -77,31 +77,26 @@ void plot(const PlotArguments& arguments) {
 }  // namespace
 
 void add_plot_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("plot", "draw a picture of a mesh, or of the outline of an airfoil");
+    CLI::App* command = add_command(app, "plot", "draw a picture of a mesh, or of the outline of an airfoil");
     auto arguments = std::make_shared<PlotArguments>();
-    command
-        ->add_option("MESH", arguments->mesh,
-                     "mesh file, or - for standard input; an airfoil where it is naca:DIGITS or ends in .dat, .txt or "
-                     ".csv")
-        ->required();
+    add_option(*command, "MESH", arguments->mesh,
+               "mesh file, or - for standard input; an airfoil where it is naca:DIGITS or ends in .dat, .txt or "
+               ".csv")
+        .required();
     add_input_format(*command, arguments->mesh_format);
-    command
-        ->add_option("-o,--output", arguments->picture,
-                     "picture; its extension says the format: .png, .svg or .pdf; - for standard output")
-        ->required()
-        ->type_name("FILE");
+    add_option(*command, "-o,--output", arguments->picture,
+               "picture; its extension says the format: .png, .svg or .pdf; - for standard output")
+        .required()
+        .type_name("FILE");
     add_table_option(*command, option_table<PlotOptions>(), "window", arguments->window);
     add_table_option(*command, option_table<PlotOptions>(), "color", arguments->color);
     add_table_option(*command, option_table<PlotOptions>(), "repeat", arguments->repeat);
-    const auto add_flag = [&](const std::string& name, bool& flag) {
-        command->add_flag("--" + name, flag, help_with_range(find_row(option_table<PlotOptions>(), name)));
-    };
-    add_flag("axes", arguments->axes);
-    add_flag("scale-bar", arguments->scale_bar);
-    add_flag("color-bar", arguments->color_bar);
+    add_table_flag(*command, option_table<PlotOptions>(), "axes", arguments->axes);
+    add_table_flag(*command, option_table<PlotOptions>(), "scale-bar", arguments->scale_bar);
+    add_table_flag(*command, option_table<PlotOptions>(), "color-bar", arguments->color_bar);
     add_table_option(*command, option_table<PlotOptions>(), "width", arguments->width);
     add_table_option(*command, option_table<PlotOptions>(), "format", arguments->format);
-    command->callback([arguments] { plot(*arguments); });
+    run_with(*command, [arguments] { plot(*arguments); });
 }
 
 }  // namespace lamina::app

@@ -53,30 +53,27 @@ void polar(const PolarArguments& arguments) {
 }  // namespace
 
 void add_polar_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("polar", "compute lift and drag at many angles of attack");
+    CLI::App* command = add_command(app, "polar", "compute lift and drag at many angles of attack");
     auto arguments = std::make_shared<PolarArguments>();
-    command
-        ->add_option("--solver", arguments->solver,
-                     "flow: a panel method with boundary layers, without a mesh; openfoam, su2, or a "
-                     "command, as for lamina adapt: on one mesh that serves all angles, each from the flow of the one "
-                     "before [flow]")
-        ->type_name("flow|openfoam|su2|COMMAND")
-        ->group("Polar");
-    command
-        ->add_option(
-            "-o,--output", arguments->folder,
-            "folder of the cases, alpha_N, and of polar.csv, polar.json and, by flow, polar.txt, which is as XFOIL "
-            "writes it; angles that are there are kept")
-        ->required()
-        ->type_name("FOLDER")
-        ->group("Polar");
-    add_table_option(*command, option_table<SolverCaseOptions>(), "turbulence", arguments->turbulence)->group("Polar");
+    add_option(*command, "--solver", arguments->solver,
+               "flow: a panel method with boundary layers, without a mesh; openfoam, su2, or a "
+               "command, as for lamina adapt: on one mesh that serves all angles, each from the flow of the one "
+               "before [flow]")
+        .type_name("flow|openfoam|su2|COMMAND")
+        .group("Polar");
+    add_option(*command, "-o,--output", arguments->folder,
+               "folder of the cases, alpha_N, and of polar.csv, polar.json and, by flow, polar.txt, which is as XFOIL "
+               "writes it; angles that are there are kept")
+        .required()
+        .type_name("FOLDER")
+        .group("Polar");
+    add_table_option(*command, option_table<SolverCaseOptions>(), "turbulence", arguments->turbulence).group("Polar");
     add_transition_options(*command, arguments->transition);
     arguments->mesh =
         add_mesh_options(*command, {"output", "format", "order", "parts", "span", "span-cells", "span-ends",
                                     "wall-distance", "stream", "wall-data", "report", "html"});
-    command->footer("Exit code 4: an angle is not steady, separated, stalled, or failed; its row says so.");
-    command->callback([arguments] { polar(*arguments); });
+    set_footer(*command, "Exit code 4: an angle is not steady, separated, stalled, or failed; its row says so.");
+    run_with(*command, [arguments] { polar(*arguments); });
 }
 
 }  // namespace lamina::app

@@ -68,27 +68,25 @@ void remesh_file(const RemeshArguments& arguments) {
 }  // namespace
 
 void add_remesh_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("remesh", "adapt the triangles of a mesh to a metric; its layer stays");
+    CLI::App* command = add_command(app, "remesh", "adapt the triangles of a mesh to a metric; its layer stays");
     auto arguments = std::make_shared<RemeshArguments>();
-    command->add_option("MESH", arguments->mesh, "mesh file; - for standard input")->required();
+    add_option(*command, "MESH", arguments->mesh, "mesh file; - for standard input").required();
     add_input_format(*command, arguments->input_format);
-    command
-        ->add_option("--metric", arguments->metric,
-                     "tensors or sizes at the vertices of MESH: Medit file (.sol), or VTU file with the point data "
-                     "'metric'")
-        ->required()
-        ->type_name("FILE");
+    add_option(*command, "--metric", arguments->metric,
+               "tensors or sizes at the vertices of MESH: Medit file (.sol), or VTU file with the point data "
+               "'metric'")
+        .required()
+        .type_name("FILE");
     for (const char* name : {"vertices", "gradation", "max-ratio"})
         add_table_option(*command, option_table<RemeshOptions>(), name, arguments->values[name]);
     add_table_flag(*command, option_table<RemeshOptions>(), "divide-borders", arguments->values["divide-borders"]);
-    command->add_option("--format", arguments->options.format, "format of the output")->type_name(format_names());
-    command
-        ->add_option("-o,--output", arguments->output,
-                     "mesh file to write; its extension says the format, unless --format does; - for standard output")
-        ->required()
-        ->type_name("FILE");
-    command->footer(format_help());
-    command->callback([arguments] { remesh_file(*arguments); });
+    add_option(*command, "--format", arguments->options.format, "format of the output").type_name(format_names());
+    add_option(*command, "-o,--output", arguments->output,
+               "mesh file to write; its extension says the format, unless --format does; - for standard output")
+        .required()
+        .type_name("FILE");
+    set_footer(*command, format_help());
+    run_with(*command, [arguments] { remesh_file(*arguments); });
 }
 
 }  // namespace lamina::app

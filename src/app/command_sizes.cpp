@@ -129,44 +129,37 @@ void sizes(const SizesArguments& arguments) {
 }  // namespace
 
 void add_sizes_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("sizes", "find the edge lengths that a solution asks for");
+    CLI::App* command = add_command(app, "sizes", "find the edge lengths that a solution asks for");
     auto arguments = std::make_shared<SizesArguments>();
-    command
-        ->add_option("SOLUTION", arguments->solution,
-                     "VTU file with point data or cell data, CGNS file with values at vertices, restart file of SU2, "
-                     "or folder of "
-                     "an OpenFOAM case or of one of its times")
-        ->required();
-    command
-        ->add_option("--mesh", arguments->mesh,
-                     "mesh of the solution, in any format that can be read; else that of SOLUTION")
-        ->type_name("FILE");
-    command
-        ->add_option("--field", arguments->fields,
-                     "fields to interpolate well: NAME, a component such as U:x, or the length of vectors, mag(U)")
-        ->required()
-        ->delimiter(',')
-        ->type_name("NAME[,NAME...]");
+    add_option(*command, "SOLUTION", arguments->solution,
+               "VTU file with point data or cell data, CGNS file with values at vertices, restart file of SU2, "
+               "or folder of "
+               "an OpenFOAM case or of one of its times")
+        .required();
+    add_option(*command, "--mesh", arguments->mesh,
+               "mesh of the solution, in any format that can be read; else that of SOLUTION")
+        .type_name("FILE");
+    add_option(*command, "--field", arguments->fields,
+               "fields to interpolate well: NAME, a component such as U:x, or the length of vectors, mag(U)")
+        .required()
+        .delimiter(',')
+        .type_name("NAME[,NAME...]");
     for (const char* name : {"vertices", "norm", "gradation", "max-change"})
         add_table_option(*command, option_table<SolutionSizeOptions>(), name, arguments->options[name]);
-    command->get_option("--vertices")->required();
-    command
-        ->add_option("--case", arguments->case_file,
-                     "case file of the next mesh (lamina mesh --dump-config), which is made to count its vertices; "
-                     "sizes may then divide the borders of layers, too; else the layers are those of the solution")
-        ->type_name("FILE");
-    command
-        ->add_option(
-            "--velocity", arguments->velocity,
-            "vectors of velocity or momentum: walls get spacings, first heights and layers by the solution, too")
-        ->type_name("NAME")
-        ->needs(command->get_option("--case"));
-    command
-        ->add_option("-o,--output", arguments->output,
-                     "VTU file to write, for lamina mesh --background; - for standard output")
-        ->required()
-        ->type_name("FILE");
-    command->callback([arguments] { sizes(*arguments); });
+    option_of(*command, "--vertices").required();
+    add_option(*command, "--case", arguments->case_file,
+               "case file of the next mesh (lamina mesh --dump-config), which is made to count its vertices; "
+               "sizes may then divide the borders of layers, too; else the layers are those of the solution")
+        .type_name("FILE");
+    add_option(*command, "--velocity", arguments->velocity,
+               "vectors of velocity or momentum: walls get spacings, first heights and layers by the solution, too")
+        .type_name("NAME")
+        .needs("--case");
+    add_option(*command, "-o,--output", arguments->output,
+               "VTU file to write, for lamina mesh --background; - for standard output")
+        .required()
+        .type_name("FILE");
+    run_with(*command, [arguments] { sizes(*arguments); });
 }
 
 }  // namespace lamina::app

@@ -2,8 +2,6 @@
 #include <memory>
 #include <string>
 
-#include <fmt/format.h>
-
 #include <lamina/error.hpp>
 #include <lamina/solver_case.hpp>
 
@@ -48,33 +46,27 @@ void make_case(const CaseArguments& arguments) {
 }  // namespace
 
 void add_case_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("case", "make a mesh and a case of a flow solver, ready to run");
+    CLI::App* command = add_command(app, "case", "make a mesh and a case of a flow solver, ready to run");
     auto arguments = std::make_shared<CaseArguments>();
-    command
-        ->add_option("SOLVER", arguments->solver,
-                     "openfoam: simpleFoam, or rhoSimpleFoam with --mach, or pimpleFoam with --unsteady, run by "
-                     "DIR/Allrun; su2: SU2_CFD, run by "
-                     "DIR/Allrun; pyfr: PyFR on curved cells (--order, 3 unless given), laminar, run by DIR/Allrun")
-        ->required()
-        ->type_name("openfoam|su2|pyfr");
-    command
-        ->add_option("-o,--output", arguments->folder,
-                     "folder to write the mesh and the case into; of several levels: {level} stands for the number")
-        ->type_name("DIR")
-        ->group("Case");
-    add_table_option(*command, option_table<SolverCaseOptions>(), "turbulence", arguments->turbulence)->group("Case");
-    const auto add_flag = [&](const char* name, bool& given) {
-        const auto& row = find_row(option_table<SolverCaseOptions>(), name);
-        command->add_flag(fmt::format("--{}", name), given, help_with_range(row))->group("Case");
-    };
-    add_flag("unsteady", arguments->unsteady);
-    add_flag("overwrite", arguments->overwrite);
+    add_option(*command, "SOLVER", arguments->solver,
+               "openfoam: simpleFoam, or rhoSimpleFoam with --mach, or pimpleFoam with --unsteady, run by "
+               "DIR/Allrun; su2: SU2_CFD, run by "
+               "DIR/Allrun; pyfr: PyFR on curved cells (--order, 3 unless given), laminar, run by DIR/Allrun")
+        .required()
+        .type_name("openfoam|su2|pyfr");
+    add_option(*command, "-o,--output", arguments->folder,
+               "folder to write the mesh and the case into; of several levels: {level} stands for the number")
+        .type_name("DIR")
+        .group("Case");
+    add_table_option(*command, option_table<SolverCaseOptions>(), "turbulence", arguments->turbulence).group("Case");
+    const auto& table = option_table<SolverCaseOptions>();
+    add_table_flag(*command, table, "unsteady", arguments->unsteady).group("Case");
+    add_table_flag(*command, table, "overwrite", arguments->overwrite).group("Case");
     arguments->family = add_family_options(*command, 1);
-    for (const char* const name : {"--ratio", "--base-level", "--table"})
-        command->get_option(name)->needs(command->get_option("--levels"));
+    for (const char* const name : {"--ratio", "--base-level", "--table"}) option_of(*command, name).needs("--levels");
     arguments->mesh =
         add_mesh_options(*command, {"output", "format", "parts", "span", "span-cells", "span-ends", "wall-distance"});
-    command->callback([arguments] { make_case(*arguments); });
+    run_with(*command, [arguments] { make_case(*arguments); });
 }
 
 }  // namespace lamina::app

@@ -102,17 +102,16 @@ void view(const ViewArguments& arguments) {
 }  // namespace
 
 void add_view_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("view", "write a page to zoom into a mesh, and open it in a browser");
+    CLI::App* command = add_command(app, "view", "write a page to zoom into a mesh, and open it in a browser");
     auto arguments = std::make_shared<ViewArguments>();
-    command->add_option("MESH", arguments->mesh, "mesh file; - for standard input")->required();
+    add_option(*command, "MESH", arguments->mesh, "mesh file; - for standard input").required();
     add_input_format(*command, arguments->format);
-    command
-        ->add_option("-o,--output", arguments->page,
-                     "HTML file to write; - for standard output; else the name of the mesh with .html, in the working "
-                     "folder")
-        ->type_name("FILE");
-    command->add_flag("--no-open", arguments->no_open, "write the page, and do not open it");
-    command->callback([arguments] { view(*arguments); });
+    add_option(*command, "-o,--output", arguments->page,
+               "HTML file to write; - for standard output; else the name of the mesh with .html, in the working "
+               "folder")
+        .type_name("FILE");
+    add_flag(*command, "--no-open", arguments->no_open, "write the page, and do not open it");
+    run_with(*command, [arguments] { view(*arguments); });
 }
 
 }  // namespace lamina::app

@@ -53,14 +53,14 @@ void print_layer(const YPlusArguments& arguments) {
 }  // namespace
 
 void add_yplus_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("yplus", "compute first heights from y+ on a flat plate, without a section");
+    CLI::App* command = add_command(app, "yplus", "compute first heights from y+ on a flat plate, without a section");
     auto arguments = std::make_shared<YPlusArguments>();
     for (const char* name : {"reynolds", "velocity", "viscosity", "chord"})
         add_table_option(*command, option_table<FlowConditions>(), name, arguments->conditions[name]);
     for (const char* name : {"y-plus", "first-height", "growth"})
         add_table_option(*command, option_table<LayerOptions>(), name, arguments->layer[name]);
-    command->footer("Without --y-plus and --first-height, y+ is 1. A first height gives its y+ instead.");
-    command->callback([arguments] { print_layer(*arguments); });
+    set_footer(*command, "Without --y-plus and --first-height, y+ is 1. A first height gives its y+ instead.");
+    run_with(*command, [arguments] { print_layer(*arguments); });
 }
 
 }  // namespace lamina::app

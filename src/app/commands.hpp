@@ -2,9 +2,9 @@
 // is named there.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include <lamina/ranks.hpp>
+
+#include "app/command_line.hpp"
 
 namespace lamina::app {
 

@@ -198,28 +198,24 @@ void run_family(const FamilyArguments& arguments, const MeshCase& mesh_case,
 
 std::shared_ptr<FamilyArguments> add_family_options(CLI::App& command, int levels) {
     auto arguments = std::make_shared<FamilyArguments>(FamilyArguments{.levels = levels, .ratio = std::sqrt(2.0)});
-    command
-        .add_option("--levels", arguments->levels,
-                    fmt::format("number of meshes; level 0 is the coarsest [{}]", levels))
-        ->group("Family")
-        ->type_name("N");
-    command
-        .add_option("--ratio", arguments->ratio,
-                    "ratio of all lengths from one level to the next; with 2, two new layers lie in one old one "
-                    "[sqrt 2]")
-        ->group("Family")
-        ->type_name("R");
-    command
-        .add_option("--base-level", arguments->base_level,
-                    "level with the lengths that the other options ask for; 0: all others are finer; N - 1: all "
-                    "others are coarser [N / 2, rounded down]")
-        ->group("Family")
-        ->type_name("LEVEL");
-    command
-        .add_option("--table", arguments->table,
-                    "CSV file to write: h and counts of each level [the first output up to {level}, and family.csv]")
-        ->group("Family")
-        ->type_name("FILE");
+    add_option(command, "--levels", arguments->levels,
+               fmt::format("number of meshes; level 0 is the coarsest [{}]", levels))
+        .group("Family")
+        .type_name("N");
+    add_option(command, "--ratio", arguments->ratio,
+               "ratio of all lengths from one level to the next; with 2, two new layers lie in one old one "
+               "[sqrt 2]")
+        .group("Family")
+        .type_name("R");
+    add_option(command, "--base-level", arguments->base_level,
+               "level with the lengths that the other options ask for; 0: all others are finer; N - 1: all "
+               "others are coarser [N / 2, rounded down]")
+        .group("Family")
+        .type_name("LEVEL");
+    add_option(command, "--table", arguments->table,
+               "CSV file to write: h and counts of each level [the first output up to {level}, and family.csv]")
+        .group("Family")
+        .type_name("FILE");
     return arguments;
 }
 

@@ -7,9 +7,8 @@
 #include <optional>
 #include <string>
 
-#include <CLI/CLI.hpp>
-
 #include "app/case.hpp"
+#include "app/command_line.hpp"
 #include "app/mesh_run.hpp"
 
 namespace lamina::app {

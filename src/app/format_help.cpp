@@ -21,8 +21,8 @@ std::string names_of_formats(Select select) {
 }  // namespace
 
 void add_input_format(CLI::App& command, std::string& format) {
-    command.add_option("--input-format", format, "format of the mesh that is read; else its extension says it")
-        ->type_name(names_of_formats([](const MeshFormat& row) { return row.readable; }));
+    add_option(command, "--input-format", format, "format of the mesh that is read; else its extension says it")
+        .type_name(names_of_formats([](const MeshFormat& row) { return row.readable; }));
 }
 
 std::string format_names() {

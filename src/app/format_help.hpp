@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include <CLI/CLI.hpp>
+#include "app/command_line.hpp"
 
 namespace lamina::app {
 

@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include <CLI/CLI.hpp>
+
 #include <lamina/error.hpp>
 
 #include "app/arguments.hpp"
@@ -69,6 +71,12 @@ GivenOptions add_mesh_options(CLI::App& command, const std::vector<std::string_v
         if (std::find(left_out.begin(), left_out.end(), option.name) == left_out.end())
             options.emplace_back(&option, add_option(command, option));
     return options;
+}
+
+std::vector<std::string> given_texts(const GivenOptions& options, const std::string& name) {
+    for (const auto& [option, given] : options)
+        if (option->name == name && given->count() > 0) return given->results();
+    return {};
 }
 
 MeshCase case_of_command_line(const GivenOptions& options) {

@@ -6,12 +6,11 @@
 #include <utility>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 #include <lamina/option.hpp>
 #include <lamina/pipeline.hpp>
 
 #include "app/case.hpp"
+#include "app/command_line.hpp"
 
 namespace lamina::app {
 
@@ -20,6 +19,9 @@ using GivenOptions = std::vector<std::pair<const Option<MeshCase>*, CLI::Option*
 
 /// Adds the options of `lamina mesh` to a command, INPUT among them, but for those of these names.
 GivenOptions add_mesh_options(CLI::App& command, const std::vector<std::string_view>& left_out = {});
+
+/// Returns what was given for the option of this name; nothing where it was not given.
+std::vector<std::string> given_texts(const GivenOptions& options, const std::string& name);
 
 /// Returns the case that the command line describes. Its options override those of the case file.
 MeshCase case_of_command_line(const GivenOptions& options);

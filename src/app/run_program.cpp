@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include <CLI/CLI.hpp>
+
 #include <lamina/error.hpp>
 #include <lamina/version.hpp>
 

@@ -4,39 +4,40 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 #include <lamina/option.hpp>
 
+#include "app/command_line.hpp"
 #include "app/options.hpp"
 
 namespace lamina::app {
 
 /// Adds an option of a table to a command. `text` receives the value that the user gives.
 template <class Options>
-CLI::Option* add_table_option(CLI::App& command, const OptionTable<Options>& table, const std::string& name,
-                              std::string& text) {
+AddedOption add_table_option(CLI::App& command, const OptionTable<Options>& table, const std::string& name,
+                             std::string& text) {
     const Option<Options>& option = find_row(table, name);
-    return command.add_option("--" + name, text, help_with_range(option))->type_name(option.metavar);
+    return add_option(command, "--" + name, text, help_with_range(option)).type_name(option.metavar);
 }
 
-/// Adds a flag of a table to a command; the text is "true" where it is given.
+/// Adds a flag of a table to a command.
 template <class Options>
-CLI::Option* add_table_flag(CLI::App& command, const OptionTable<Options>& table, const std::string& name,
-                            std::string& text) {
-    return command.add_flag_callback(
-        "--" + name, [&text] { text = "true"; }, find_row(table, name).help);
+AddedOption add_table_flag(CLI::App& command, const OptionTable<Options>& table, const std::string& name, bool& flag) {
+    return add_flag(command, "--" + name, flag, help_with_range(find_row(table, name)));
+}
+
+/// Does so; the text is "true" where it is given.
+template <class Options>
+AddedOption add_table_flag(CLI::App& command, const OptionTable<Options>& table, const std::string& name,
+                           std::string& text) {
+    return add_text_flag(command, "--" + name, text, find_row(table, name).help);
 }
 
 /// Adds an option of a table that may be given several times; `texts` receives the values.
 template <class Options>
-CLI::Option* add_repeated_table_option(CLI::App& command, const OptionTable<Options>& table, const std::string& name,
-                                       std::vector<std::string>& texts) {
+AddedOption add_repeated_table_option(CLI::App& command, const OptionTable<Options>& table, const std::string& name,
+                                      std::vector<std::string>& texts) {
     const Option<Options>& option = find_row(table, name);
-    return command.add_option("--" + name, texts, help_with_range(option))
-        ->type_name(option.metavar)
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    return add_option(command, "--" + name, texts, help_with_range(option)).type_name(option.metavar).repeated();
 }
 
 /// Sets an option of a table to values from the command line; none leave the default. Throws UsageError "option --name:

@@ -6,7 +6,7 @@ namespace lamina::app {
 
 void add_transition_options(CLI::App& command, std::map<std::string, std::string>& texts) {
     for (const char* name : {"ncrit", "trip", "trip-lower"})
-        add_table_option(command, option_table<TransitionOptions>(), name, texts[name])->group("Transition");
+        add_table_option(command, option_table<TransitionOptions>(), name, texts[name]).group("Transition");
 }
 
 TransitionOptions transition_options(const std::map<std::string, std::string>& texts) {

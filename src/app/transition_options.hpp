@@ -4,9 +4,9 @@
 #include <map>
 #include <string>
 
-#include <CLI/CLI.hpp>
-
 #include <lamina/coupled_flow.hpp>
+
+#include "app/command_line.hpp"
 
 namespace lamina::app {
 
