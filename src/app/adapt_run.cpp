@@ -13,7 +13,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 #include <lamina/error.hpp>
 #include <lamina/files.hpp>
@@ -23,13 +22,13 @@
 #include <lamina/transfer.hpp>
 
 #include "app/adapt_page.hpp"
+#include "app/adapt_records.hpp"
 #include "app/case_inputs.hpp"
 #include "app/fingerprint.hpp"
 #include "app/folder_lock.hpp"
 #include "app/mesh_run.hpp"
 #include "app/options.hpp"
 #include "app/progress.hpp"
-#include "app/report.hpp"
 #include "app/standard_output.hpp"
 #include "app/stopwatch.hpp"
 
@@ -38,45 +37,6 @@ namespace lamina::app {
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr const char* marker_name = "round.json";
-
-Json json_of(const AdaptRound& round, const std::string& digits) {
-    Json json{{"fingerprint", digits}, {"vertices", round.vertices}, {"cells", round.cells},
-              {"CL", round.forces.cl}, {"CD", round.forces.cd},      {"steady", round.forces.steady},
-              {"iterations", Json()},  {"log10_residual", Json()},   {"seconds", round.seconds}};
-    if (round.forces.iterations) json["iterations"] = *round.forces.iterations;
-    if (round.forces.residual) json["log10_residual"] = *round.forces.residual;
-    return json;
-}
-
-/// Returns the round that a folder holds; nothing where it was not finished. Throws UsageError where it is of other
-/// options.
-std::optional<AdaptRound> read_round(const fs::path& folder, const std::string& digits) {
-    AdaptRound round;
-    const bool exists = read_record(folder / marker_name, "round", digits, [&](const Json& json) {
-        round.vertices = json.at("vertices");
-        round.cells = json.at("cells");
-        round.forces.cl = json.at("CL");
-        round.forces.cd = json.at("CD");
-        round.forces.steady = json.at("steady");
-        if (!json.at("iterations").is_null()) round.forces.iterations = json.at("iterations").get<std::size_t>();
-        if (!json.at("log10_residual").is_null()) round.forces.residual = json.at("log10_residual").get<double>();
-        round.seconds = json.at("seconds");
-    });
-    return exists ? std::optional(round) : std::nullopt;
-}
-
-std::string rounds_table(const std::vector<AdaptRound>& rounds) {
-    std::string text = "round,vertices,cells,iterations,steady,CL,CD,log10_residual,seconds\n";
-    for (std::size_t i = 0; i < rounds.size(); ++i) {
-        const auto& [vertices, cells, forces, seconds] = rounds[i];
-        text +=
-            fmt::format("{},{},{},{},{},{},{},{},{:.1f}\n", i, vertices, cells, optional_text(forces.iterations),
-                        forces.steady ? "yes" : "no", forces.cl, forces.cd, optional_text(forces.residual), seconds);
-    }
-    return text;
-}
 
 /// Gives the cells of a mesh that OpenFOAM has numbered anew the regions that they have in another order. Their shapes do not
 /// tell stretched triangles from those of the layer.
@@ -274,7 +234,7 @@ private:
         say(fmt::format("round {}: {} vertices, solving in {}", i, round.vertices, folder.string()));
         round.forces = solver_.run(folder, guard_);
         round.seconds = watch.lap();
-        write_file(folder / marker_name, to_text(json_of(round, digits_[i])));
+        write_round(folder, round, digits_[i]);
         fs::rename(folder, folder_of(i));
         return round;
     }
