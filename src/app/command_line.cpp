@@ -19,7 +19,12 @@ AddedOption AddedOption::repeated() const {
 }
 AddedOption AddedOption::one_at_a_time() const { return AddedOption(*option_->allow_extra_args(false)); }
 AddedOption AddedOption::show_default() const { return AddedOption(*option_->capture_default_str()); }
-AddedOption AddedOption::positive() const { return AddedOption(*option_->check(CLI::PositiveNumber)); }
+AddedOption AddedOption::positive() const {
+    return check([](const std::string& word) -> std::string {
+        double value = 0;
+        return CLI::detail::lexical_cast(word, value) && value > 0 ? "" : "must be > 0, not " + word;
+    });
+}
 AddedOption AddedOption::in_range(int lower, int upper) const {
     return AddedOption(*option_->check(CLI::Range(lower, upper)));
 }

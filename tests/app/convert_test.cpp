@@ -77,6 +77,7 @@ TEST(Convert, MakesMeshesInSpace) {
     EXPECT_NE(folder.read("c/constant/polyMesh/boundary").find("cyclic;"), std::string::npos);
     expect_refused(folder, {"convert", "m.su2", "n.su2", "--span", "1"}, 2, "holds plane meshes");
     expect_refused(folder, {"convert", "m.su2", "n.vtu", "--span-cells", "2"}, 2, "need the span");
+    expect_refused(folder, {"convert", "m.su2", "n.vtu", "--span", "-1"}, 2, "--span: must be > 0, not -1");
     expect_refused(folder, {"mesh", "naca:0012:40", "-o", "n.vtu", "--stream", "--span", "1"}, 2, "span");
 
     // In chords, which --chord says.
