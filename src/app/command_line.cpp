@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <utility>
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 namespace lamina::app {
@@ -21,18 +22,24 @@ AddedOption AddedOption::one_at_a_time() const { return AddedOption(*option_->al
 AddedOption AddedOption::show_default() const { return AddedOption(*option_->capture_default_str()); }
 AddedOption AddedOption::positive() const {
     return check([](const std::string& word) -> std::string {
-        double value = 0;
-        return CLI::detail::lexical_cast(word, value) && value > 0 ? "" : "must be > 0, not " + word;
-    });
+               double value = 0;
+               return CLI::detail::lexical_cast(word, value) && value > 0 ? "" : "must be > 0, not " + word;
+           })
+        .with_range("> 0");
 }
 AddedOption AddedOption::in_range(int lower, int upper) const {
-    return AddedOption(*option_->check(CLI::Range(lower, upper)));
+    return AddedOption(*option_->check(CLI::Range(lower, upper).description("")))
+        .with_range(fmt::format(">= {} and <= {}", lower, upper));
 }
 AddedOption AddedOption::in_range(std::size_t lower, std::size_t upper) const {
-    return AddedOption(*option_->check(CLI::Range(lower, upper)));
+    return AddedOption(*option_->check(CLI::Range(lower, upper).description("")))
+        .with_range(fmt::format(">= {} and <= {}", lower, upper));
 }
 AddedOption AddedOption::one_of(const std::vector<std::string>& words) const {
-    return AddedOption(*option_->check(CLI::IsMember(words)));
+    return AddedOption(*option_->check(CLI::IsMember(words).description("")));
+}
+AddedOption AddedOption::with_range(const std::string& range) const {
+    return description(option_->get_description() + "; " + range);
 }
 AddedOption AddedOption::check(std::function<std::string(const std::string& word)> fault) const {
     return AddedOption(*option_->check(std::move(fault), ""));

@@ -30,7 +30,7 @@ public:
     AddedOption repeated() const;                            ///< all values of an option that takes one at a time count
     AddedOption one_at_a_time() const;                       ///< further words are no further values
     AddedOption show_default() const;                        ///< help shows the value that it has now
-    AddedOption positive() const;                            ///< the value must be above 0
+    AddedOption positive() const;                            ///< the value must be above 0, as help says then
     AddedOption in_range(int lower, int upper) const;        ///< the value must be one of these
     AddedOption in_range(std::size_t lower, std::size_t upper) const;  ///< the same
     AddedOption one_of(const std::vector<std::string>& words) const;   ///< the value must be one of these
@@ -39,6 +39,8 @@ public:
 
 private:
     CLI::Option* option_;
+
+    AddedOption with_range(const std::string& range) const;  ///< help ends with the values that it takes
 };
 
 /// Adds a command to the program.

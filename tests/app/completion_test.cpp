@@ -73,10 +73,12 @@ TEST(Completion, BashOffersOptionsAndValues) {
                  script +
                      "try() { COMP_WORDS=(\"$@\"); COMP_CWORD=$(($# - 1)); _lamina; echo \"${COMPREPLY[*]}\"; }\n"
                      "try lamina me\ntry lamina mesh --first\ntry lamina mesh --surface re\n"
-                     "try lamina help che\ntry lamina completion z\ntry lamina mesh --growth-law ''\n");
+                     "try lamina help che\ntry lamina completion z\ntry lamina convert --span-ends p\n"
+                     "try lamina mesh --growth-law ''\n");
     const std::string at = folder.path().string() + "/";
     ASSERT_TRUE(succeeds("bash " + at + "try.sh > " + at + "out"));
-    EXPECT_TRUE(folder.read("out").starts_with("mesh\n--first-height\nresample\ncheck\nzsh\ngeometric polynomial "))
+    EXPECT_TRUE(
+        folder.read("out").starts_with("mesh\n--first-height\nresample\ncheck\nzsh\nperiodic\ngeometric polynomial "))
         << folder.read("out");
 }
 
