@@ -8,6 +8,7 @@
 
 #include <lamina/layers.hpp>
 
+#include "core/angles.hpp"
 #include "core/bounding_box.hpp"
 #include "geometry/row.hpp"
 #include "geometry/symmetry.hpp"
@@ -65,24 +66,25 @@ std::vector<double> heights_at_vertices(std::span<const RayVertex> outline, std:
     return result;
 }
 
-/// Returns the foot of a line at this vertex of a wall; null where there is none.
-const LineFoot* foot_at(Point vertex, std::span<const LineFoot> feet) {
-    const auto found = std::find_if(feet.begin(), feet.end(), [&](const LineFoot& foot) { return foot.at == vertex; });
-    return found == feet.end() ? nullptr : &*found;
+/// Returns the feet of lines at this vertex of a wall.
+std::span<const LineFoot> feet_at(Point vertex, std::span<const LineFoot> feet) {
+    const auto is_there = [&](const LineFoot& foot) { return foot.at == vertex; };
+    const auto first = std::find_if(feet.begin(), feet.end(), is_there);
+    return {first, std::find_if_not(first, feet.end(), is_there)};
 }
 
 /// Adds the rays of an outer wall or of an obstacle, as a closed outline: normals of its straight parts, and bisectors at
 /// its corners, of which those of outer walls are beyond the domain. Rays at feet run along their lines.
-void add_outline(const std::vector<Point>& p, std::span<const LineFoot> feet, RaySet& set) {
+void add_outline(const std::vector<Point>& p, std::span<const LineFoot> feet, double max_angle, RaySet& set) {
     for (std::size_t i = 0; i < p.size(); ++i) {
         const Point before = unit(p[i] - p[i > 0 ? i - 1 : p.size() - 1]);
         const Point after = unit(p[i + 1 < p.size() ? i + 1 : 0] - p[i]);
         const bool is_end = before == -after;  // of a line without thickness
-        set.lines.push_back({p[i], is_end ? before : -perpendicular(unit(before + after))});
-        const LineFoot* foot = foot_at(p[i], feet);
-        if (!foot || !(dot(foot->direction, set.lines.back().direction) > 0)) continue;
-        set.lines.back().direction = foot->direction;
-        set.lines.back().line_room = foot->room;
+        const Point normal = is_end ? before : -perpendicular(unit(before + after));
+        if (const std::span<const LineFoot> here = feet_at(p[i], feet); !here.empty())
+            add_rays_along_lines(p[i], normal, here, max_angle, set.lines);
+        else
+            set.lines.push_back({p[i], normal});
     }
     set.begin.push_back(set.lines.size());
 }
@@ -103,6 +105,7 @@ RayLine ray_in_line(RayLine ray, double direction) {
     ray.direction = {direction, 0};
     ray.corner_after.clear();
     ray.on_symmetry = true;
+    ray.line_room = 0;
     return ray;
 }
 
@@ -118,11 +121,13 @@ std::size_t mirror_rays(const Element& element, double y, std::vector<RayLine>& 
         rays.end());
     const bool has_wake = !above.empty();
     if (has_wake) above.front().direction = {1, 0};
+    std::size_t first = 0;  // behind those of the tail's vertex above the wake
+    while (rays[first].origin == tail) ++first;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const RayLine& ray = rays[i];
         if (ray.place != RayPlace::wall || ray.origin.y < y) continue;
         if (has_wake && ray.origin == tail) {
-            if (i == 0) above.push_back(ray);
+            if (i < first) above.push_back(ray);
             continue;
         }
         if (ray.origin.y > y) {
@@ -188,7 +193,7 @@ void add_images(const Walls& walls, RaySet& set) {
                 image_of_ray(set.lines[i], set.lines[i > begin ? i - 1 : end - 1], *walls.geometry.symmetry));
         set.begin.push_back(set.lines.size());
     }
-    for (const std::vector<Point>& outline : walls.obstacles.outlines) add_outline(outline, {}, set);
+    for (const std::vector<Point>& outline : walls.obstacles.outlines) add_outline(outline, {}, 0, set);
 }
 
 /// Returns the rays of these walls. `shown` becomes the number of those in the domain, for each body.
@@ -203,12 +208,12 @@ RaySet rays_of(const Walls& walls, std::span<const DividedWake> wakes, const Lay
         std::vector<RayVertex> outline = outline_with_wake(element.points, wake == wakes.end() ? nullptr : &*wake);
         const OutlineKind kind = outline_kind(element);
         const LayerGrowth own = growth_on_element(growth, e);
+        for (RayVertex& vertex : outline)
+            if (vertex.place == RayPlace::wall) vertex.feet = feet_at(vertex.at, walls.obstacles.feet);
         if (rules_of(kind).rayless_corners && !options.equal_fans && !element.is_mirrored)
             leave_out_sharp_corners(own.first_height, outline);
         set_first_heights(first_heights_on_wall(own, 0, element.points), element.points, own.first_height, outline);
         set_least_heights(own.least_heights, outline);
-        for (RayVertex& vertex : outline)
-            if (vertex.place == RayPlace::wall) vertex.foot = foot_at(vertex.at, walls.obstacles.feet);
         const std::vector<RayLine> upright = make_rays(outline, kind, options, own, {}, walls.place);
         std::vector<RayLine> rays =
             make_rays(outline, kind, options, own, heights_at_vertices(outline, upright, own), walls.place);
@@ -218,7 +223,9 @@ RaySet rays_of(const Walls& walls, std::span<const DividedWake> wakes, const Lay
     }
     for (const OuterWall& wall : walls.outer) {
         const std::size_t first = set.lines.size();
-        add_outline(wall.points, walls.obstacles.feet, set);
+        const std::span<const LineFoot> feet(walls.obstacles.feet);
+        add_outline(wall.points, wall.first_height > 0 ? feet : feet.first(0), core::radians(options.max_ray_angle_deg),
+                    set);
         for (std::size_t i = first; i < set.lines.size(); ++i) set.lines[i].most_height = wall.thickest;
     }
     add_images(walls, set);
@@ -283,7 +290,10 @@ std::vector<std::size_t> domain_ends(const RaySet& set, std::span<const std::siz
                                      std::span<const OuterWall> outer) {
     std::vector<std::size_t> ends(set.begin.begin(), set.begin.end() - 1);
     for (std::size_t e = 0; e < shown.size(); ++e) ends[e] += shown[e];
-    for (std::size_t k = 0; k < outer.size(); ++k) ends[shown.size() + k] += outer[k].in_domain;
+    for (std::size_t k = 0; k < outer.size(); ++k) {
+        std::size_t& end = ends[shown.size() + k];  // a vertex has a ray for each of its lines
+        while (set.lines[end].origin != outer[k].points[outer[k].in_domain]) ++end;
+    }
     return ends;
 }
 

@@ -186,8 +186,7 @@ struct LineFoot {
 /// Lines and outlines inside the domain that rays must not reach. They have no layers themselves.
 struct Obstacles {
     std::vector<std::vector<Point>> outlines;  ///< simple and counter-clockwise, or the two ends of a line
-    /// One at most for each vertex. Where the line is behind an edge of the wall, or lies beside a fan, no ray runs along it,
-    /// and those of the vertex have no layers.
+    /// Those of one vertex follow each other.
     std::vector<LineFoot> feet{};
     std::vector<Point> bare{};  ///< other vertices of walls at which rays have no layers
 };

@@ -114,17 +114,16 @@ FittedLayer grow_within(const DomainRequest& domain, const LayerRequest& layer, 
     layers::PlaceOnWall on_curve;
     if (!curves->edges().empty())
         on_curve = [curves](Point from, Point to, double share) { return curves->place(from, to, share); };
-    const auto grow_past_lines = [&](std::span<const double> at_feet) {
+    const auto grow_past_lines = [&](const AtEnds& at_feet) {
         return layers::grow_rays(geometry, layer.options, growth, divided,
                                  obstacles_of(lines, growth.first_height, at_feet,
                                               geometry::is_cut(geometry) ? geometry.symmetry : std::nullopt,
                                               geometry::shifts_in_row(geometry)),
                                  on_curve);
     };
-    // Above the layer at their feet, which is known once rays have grown, lines are in the way. Edges of rays may be no
-    // edges of Delaunay layers.
-    std::vector<double> at_feet(lines.points.size());
-    if (layer.options.enabled && layer.options.topology != LayerTopology::delaunay) {
+    // Above the layer at their feet, which is known once rays have grown, lines are in the way.
+    AtEnds at_feet(lines.pieces.size());
+    if (layer.options.enabled) {
         at_feet = room_at_feet(lines);
         if (!lines.pieces.empty()) at_feet = heights_at_feet(lines, grow_past_lines(at_feet));
     }

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <optional>
 #include <set>
 #include <utility>
 
@@ -18,14 +17,12 @@
 #include <lamina/triangulation.hpp>
 
 #include "core/bounding_box.hpp"
-#include "core/box_tree.hpp"
 #include "core/disjoint_sets.hpp"
 #include "core/lexicographic_order.hpp"
 #include "core/segments.hpp"
 #include "core/text.hpp"
 #include "geometry/inside.hpp"
 #include "geometry/point_list.hpp"
-#include "geometry/row.hpp"
 #include "geometry/sheets.hpp"
 #include "geometry/symmetry.hpp"
 
@@ -420,244 +417,6 @@ LineGraph arrange_lines(std::span<const InternalLine> lines, const decoupling::F
     require_connected_domain(graph, geometry);
     require_clear_of_sheets(graph, geometry);
     return graph;
-}
-
-namespace {
-
-/// Adds copies of lines that are so far along y.
-void add_copies(std::span<const double> shifts, std::vector<std::vector<Point>>& lines) {
-    const std::size_t n = lines.size();
-    for (const double shift : shifts)
-        for (std::size_t k = 0; k < n; ++k) lines.push_back(geometry::moved(lines[k], shift));
-}
-
-}  // namespace
-
-std::vector<std::vector<Point>> ends_of_pieces(const LineGraph& graph) {
-    std::vector<std::vector<Point>> ends;
-    for (const Segment& piece : graph.pieces)
-        ends.push_back({graph.points[piece.a.index()], graph.points[piece.b.index()]});
-    return ends;
-}
-
-std::vector<SizeSource> sizes_between(const LineGraph& graph, std::span<const double> shifts) {
-    std::vector<std::vector<Point>> pieces = ends_of_pieces(graph);
-    add_copies(shifts, pieces);
-    std::vector<Box> boxes;
-    boxes.reserve(pieces.size());
-    for (const std::vector<Point>& ends : pieces) boxes.push_back(core::bounding_box(ends));
-    const core::BoxTree tree(std::move(boxes));
-    std::vector<SizeSource> sources;
-    for (const Point p : graph.points) {
-        const double nearest = tree.min_distance(p, HUGE_VAL, [&](std::size_t k) {
-            const Point a = pieces[k].front(), b = pieces[k].back();
-            return a == p || b == p ? HUGE_VAL : core::distance_to_segment(p, a, b);
-        });
-        if (std::isfinite(nearest) && nearest > 0) sources.push_back({.a = p, .b = p, .size = nearest});
-    }
-    return sources;
-}
-
-std::vector<SizeSource> sizes_along(std::span<const InternalLine> lines) {
-    std::vector<SizeSource> sources;
-    for (const InternalLine& line : lines) {
-        if (!line.size) continue;
-        for (std::size_t i = 0; i + 1 < line.points.size(); ++i)
-            sources.push_back({.a = line.points[i], .b = line.points[i + 1], .size = *line.size});
-    }
-    return sources;
-}
-
-namespace {
-
-/// Adds a line and its image in a line of symmetry as obstacles. It stops short of its ends, by a gap on a border. Rays
-/// in the line of symmetry must not pass between both where the line ends there:
-///
-///        /       the line goes on beyond y by a gap,
-///     --/------  y
-///      \'        and its image ends two gaps below
-///
-void add_with_image(std::array<Point, 2> ends, std::array<Point, 2> gaps, double y, layers::Obstacles& obstacles) {
-    const auto image = [&](Point p) { return geometry::image_of(p, y); };
-    obstacles.outlines.push_back({ends[0] - gaps[0], ends[1] - gaps[1]});
-    obstacles.outlines.push_back({image(ends[1] + 2 * gaps[1]), image(ends[0] + 2 * gaps[0])});
-}
-
-}  // namespace
-
-std::vector<double> room_at_feet(const LineGraph& graph) {
-    constexpr double share = 0.45;  // both ends of a piece may be feet
-    std::vector<double> room(graph.points.size());
-    std::vector<int> pieces(graph.points.size());
-    for (const Segment& piece : graph.pieces)
-        for (const VertexId v : {piece.a, piece.b}) {
-            if (graph.on_wall[v.index()] || graph.on_border[v.index()])
-                room[v.index()] = share * distance(graph.points[piece.a.index()], graph.points[piece.b.index()]);
-            if (++pieces[v.index()] > 1) room[v.index()] = 0;
-        }
-    return room;
-}
-
-std::vector<double> heights_at_feet(const LineGraph& graph, const layers::Rays& rays) {
-    std::map<Point, double, core::LexicographicOrder> height_at;
-    if (rays.enabled)
-        for (std::size_t i = 0; i < rays.set.lines.size(); ++i)
-            if (rays.set.lines[i].line_room > 0) height_at.emplace(rays.set.lines[i].origin, rays.front[i]);
-    std::vector<double> heights;
-    for (const Point p : graph.points) {
-        const auto found = height_at.find(p);
-        heights.push_back(found == height_at.end() ? 0 : found->second);
-    }
-    return heights;
-}
-
-namespace {
-
-/// Adds a piece of a line, which stops short of vertices by this gap, or above these heights of the layer at its ends, and the
-/// feet at these.
-void add_piece(const LineGraph& graph, const Segment& piece, double gap, std::span<const double> at_feet,
-               std::optional<double> symmetry, layers::Obstacles& obstacles) {
-    constexpr double above_layer = 1.1;
-    std::array<Point, 2> ends{graph.points[piece.a.index()], graph.points[piece.b.index()]}, on_line{};
-    const Point along = unit(ends[1] - ends[0]);
-    for (const int end : {0, 1}) {
-        const VertexId v = end == 0 ? piece.a : piece.b;
-        const Point away = (end == 0 ? 1.0 : -1.0) * along;
-        const double height = at_feet[v.index()];
-        const bool is_on_line = symmetry && graph.on_border[v.index()] && graph.points[v.index()].y == *symmetry;
-        if (height > 0) obstacles.feet.push_back({graph.points[v.index()], away, height});
-        if (is_on_line && !(height > 0))
-            on_line[end] = gap * away;
-        else
-            ends[end] = ends[end] + (height > 0 ? above_layer * height : gap) * away;
-    }
-    if (symmetry)
-        add_with_image(ends, on_line, *symmetry, obstacles);
-    else
-        obstacles.outlines.push_back({ends[0], ends[1]});
-}
-
-}  // namespace
-
-layers::Obstacles obstacles_of(const LineGraph& graph, double first_height, std::span<const double> at_feet,
-                               std::optional<double> symmetry, std::span<const double> shifts) {
-    constexpr double gap_share = 0.1;
-    layers::Obstacles obstacles;
-    for (std::size_t v = 0; v < graph.points.size(); ++v)
-        if ((graph.on_wall[v] || graph.on_border[v]) && !(at_feet[v] > 0)) obstacles.bare.push_back(graph.points[v]);
-    for (const Segment& piece : graph.pieces) {
-        const Point a = graph.points[piece.a.index()], b = graph.points[piece.b.index()];
-        add_piece(graph, piece, std::min(gap_share * first_height, 0.25 * distance(a, b)), at_feet, symmetry,
-                  obstacles);
-    }
-    add_copies(shifts, obstacles.outlines);
-    return obstacles;
-}
-
-std::vector<double> feet_on_border(const LineGraph& graph, double y) {
-    std::vector<double> feet;
-    for (std::size_t v = 0; v < graph.points.size(); ++v)
-        if (graph.on_border[v] && graph.points[v].y == y) feet.push_back(graph.points[v].x);
-    std::sort(feet.begin(), feet.end());
-    return feet;
-}
-
-namespace {
-
-/// A segment with the places of its ends.
-struct PlacedSegment {
-    Segment ends;
-    Point a, b;
-};
-
-/// Returns whether two segments have more in common than one end.
-bool meets_border(const PlacedSegment& line, const PlacedSegment& edge) {
-    const bool shares_a = edge.ends.a == line.ends.a || edge.ends.b == line.ends.a;
-    const bool shares_b = edge.ends.a == line.ends.b || edge.ends.b == line.ends.b;
-    if (shares_a && shares_b) return true;
-    const auto other_end = [&](VertexId v) { return edge.ends.a == v ? edge.b : edge.a; };
-    if (shares_a) return core::segments_fold(line.a, line.b, other_end(line.ends.a));
-    if (shares_b) return core::segments_fold(line.b, line.a, other_end(line.ends.b));
-    return core::segments_meet(line.a, line.b, edge.a, edge.b);
-}
-
-}  // namespace
-
-std::vector<std::vector<VertexId>> feet_in_layer(const LineGraph& graph, const layers::Layer& layer) {
-    std::vector<std::vector<VertexId>> feet(graph.points.size());
-    std::map<Point, std::size_t, core::LexicographicOrder> vertex_at;
-    for (std::size_t v = 0; v < graph.points.size(); ++v)
-        if (graph.on_wall[v] || graph.on_border[v]) vertex_at.emplace(graph.points[v], v);
-    if (vertex_at.empty()) return feet;
-    for (const std::vector<layers::Ray>& rays : layer.rays)
-        for (const layers::Ray& ray : rays) {
-            const auto found = vertex_at.find(layer.points[ray.origin.index()]);
-            if (!ray.along_line || found == vertex_at.end()) continue;
-            for (std::uint32_t n = 0; n <= ray.layers; ++n) feet[found->second].push_back(ray.vertex(n));
-        }
-    return feet;
-}
-
-decoupling::InnerLines inner_lines(const LineGraph& graph, std::span<const std::vector<VertexId>> feet,
-                                   const RegionBorders& region) {
-    decoupling::InnerLines inner;
-    if (graph.pieces.empty()) return inner;
-    std::map<Point, VertexId, core::LexicographicOrder> border_vertex;
-    std::vector<Segment> edges;
-    std::vector<Box> boxes;
-    for (const std::vector<VertexId>& border : region.borders)
-        for (std::size_t i = 0; i < border.size(); ++i) {
-            const VertexId a = border[i], b = border[i + 1 < border.size() ? i + 1 : 0];
-            border_vertex.emplace(region.points[a.index()], a);
-            edges.push_back({a, b});
-            boxes.push_back(core::bounding_box(region.points[a.index()], region.points[b.index()]));
-        }
-    std::vector<VertexId> id;
-    std::vector<Point> place = graph.points;
-    for (std::size_t v = 0; v < place.size(); ++v) {
-        if (feet[v].size() > 1) place[v] = region.points[feet[v].back().index()];
-        if (const auto found = border_vertex.find(place[v]); found != border_vertex.end()) {
-            id.push_back(found->second);
-        } else {
-            id.push_back(VertexId{region.points.size() + inner.points.size()});
-            inner.points.push_back(place[v]);
-        }
-    }
-    const core::BoxTree tree(std::move(boxes));
-    for (std::size_t i = 0; i < graph.pieces.size(); ++i) {
-        const Segment line{id[graph.pieces[i].a.index()], id[graph.pieces[i].b.index()]};
-        const Point a = place[graph.pieces[i].a.index()], b = place[graph.pieces[i].b.index()];
-        tree.overlaps(core::bounding_box(a, b), [&](std::size_t e) {
-            const Point c = region.points[edges[e].a.index()], d = region.points[edges[e].b.index()];
-            if (meets_border({line, a, b}, {edges[e], c, d}))
-                throw MeshError(
-                    fmt::format("the layer crosses the line {} near ({}, {}): make it thinner there, or move the "
-                                "line",
-                                graph.given[graph.line[i]].name, c.x, c.y),
-                    c);
-        });
-        inner.lines.push_back(line);
-    }
-    return inner;
-}
-
-void add_line_markers(const LineGraph& graph, std::span<const std::vector<VertexId>> feet,
-                      std::span<const std::vector<Segment>> inner_edges, std::vector<Marker>& markers) {
-    const std::vector<InternalLine>& lines = graph.given;
-    for (std::uint32_t k = 0; k < lines.size(); ++k) {
-        if (std::any_of(markers.begin(), markers.end(), [&](const Marker& m) { return m.name == lines[k].name; }))
-            refuse(lines[k], "another marker has this name already");
-        Marker marker{lines[k].name, MarkerKind::internal, {}};
-        for (std::size_t i = 0; i < graph.pieces.size(); ++i) {
-            if (graph.line[i] != k) continue;
-            const std::vector<VertexId>&first = feet[graph.pieces[i].a.index()],
-                  &last = feet[graph.pieces[i].b.index()];
-            for (std::size_t n = 1; n < first.size(); ++n) marker.edges.push_back({first[n - 1], first[n]});
-            marker.edges.insert(marker.edges.end(), inner_edges[i].begin(), inner_edges[i].end());
-            for (std::size_t n = last.size(); n-- > 1;) marker.edges.push_back({last[n], last[n - 1]});
-        }
-        if (!marker.edges.empty()) markers.push_back(std::move(marker));
-    }
 }
 
 }  // namespace lamina::pipeline

@@ -1,6 +1,7 @@
 // Lines inside the domain that become edges of the mesh.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -47,17 +48,21 @@ std::vector<SizeSource> sizes_between(const LineGraph& graph, std::span<const do
 /// Returns the sizes that lines ask for along themselves.
 std::vector<SizeSource> sizes_along(std::span<const InternalLine> lines);
 
-/// Returns for each vertex how high the layer may be along the line that ends there on a wall: nearly half of its
-/// piece, or 0 where there is no wall or more than one line.
-std::vector<double> room_at_feet(const LineGraph& graph);
+/// Numbers at the ends of each piece of a line.
+using AtEnds = std::vector<std::array<double, 2>>;
 
-/// Returns for each vertex how high the front of these rays is there along the line; 0 where no ray runs along one.
-std::vector<double> heights_at_feet(const LineGraph& graph, const layers::Rays& rays);
+/// Returns how high the layer may be along each piece of a line from its ends: nearly half of the piece, or 0 where an end is
+/// on no wall.
+AtEnds room_at_feet(const LineGraph& graph);
+
+/// Returns how high the front of these rays is along each piece from its ends; 0 where no ray runs along it, or where none
+/// runs along another line that ends at the same vertex.
+AtEnds heights_at_feet(const LineGraph& graph, const layers::Rays& rays);
 
 /// Returns the lines as obstacles, which stop short of vertices and walls by a tenth of this height, or by a
 /// quarter of their length, and a little above these heights of the layer at their feet; with their images where there
 /// is a line of symmetry that cuts bodies, and with copies that are so far along y.
-layers::Obstacles obstacles_of(const LineGraph& graph, double first_height, std::span<const double> at_feet,
+layers::Obstacles obstacles_of(const LineGraph& graph, double first_height, const AtEnds& at_feet,
                                std::optional<double> symmetry, std::span<const double> shifts);
 
 /// Returns the two ends of each piece.
@@ -66,17 +71,18 @@ std::vector<std::vector<Point>> ends_of_pieces(const LineGraph& graph);
 /// Returns x of the vertices of lines at this y on the border of the domain, ascending.
 std::vector<double> feet_on_border(const LineGraph& graph, double y);
 
-/// Returns for each vertex where lines end on walls the vertices of the layer along the line, from the wall to the
-/// front.
-std::vector<std::vector<VertexId>> feet_in_layer(const LineGraph& graph, const layers::Layer& layer);
+/// The vertices of the layer along each piece of a line from its ends on walls, from the wall to the front.
+using FeetInLayer = std::vector<std::array<std::vector<VertexId>, 2>>;
+
+/// Returns them.
+FeetInLayer feet_in_layer(const LineGraph& graph, const layers::Layer& layer);
 
 /// Returns the lines as part of the outer region, which begin at the ends of their feet in the layer. Throws MeshError
 /// where the layer crosses a line.
-decoupling::InnerLines inner_lines(const LineGraph& graph, std::span<const std::vector<VertexId>> feet,
-                                   const RegionBorders& region);
+decoupling::InnerLines inner_lines(const LineGraph& graph, const FeetInLayer& feet, const RegionBorders& region);
 
 /// Adds a marker for each line, which is internal. `inner_edges` are those of the pieces beyond the layer.
-void add_line_markers(const LineGraph& graph, std::span<const std::vector<VertexId>> feet,
+void add_line_markers(const LineGraph& graph, const FeetInLayer& feet,
                       std::span<const std::vector<Segment>> inner_edges, std::vector<Marker>& markers);
 
 /// Doubles the vertices of two-sided lines, but for their free ends: their markers become walls that hold both sides.

@@ -167,7 +167,7 @@ OutlinedMesh outline_mesh(const FittedLayer& fitted, const LayerOptions& layer_o
     SizeField size = sizes_beyond(fitted, layer);
     RegionBorders region = fitted.far_field.pitch > 0 ? close_row(layer, fitted.below, fitted.far_field, size)
                                                       : close_domain(layer, fitted.far_field, size, fitted.lines);
-    std::vector<std::vector<VertexId>> feet = feet_in_layer(fitted.lines, layer);
+    FeetInLayer feet = feet_in_layer(fitted.lines, layer);
     decoupling::InnerLines lines = inner_lines(fitted.lines, feet, region);
     return {std::move(layer), std::move(size), std::move(region), std::move(feet), std::move(lines)};
 }

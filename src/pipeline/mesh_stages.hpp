@@ -33,8 +33,8 @@ struct OutlinedMesh {
     layers::Layer layer;
     SizeField size;
     RegionBorders region;
-    std::vector<std::vector<VertexId>> feet;  ///< feet_in_layer()
-    decoupling::InnerLines lines;             ///< inside the region
+    FeetInLayer feet;              ///< feet_in_layer()
+    decoupling::InnerLines lines;  ///< inside the region
 
     /// Returns the region, which refers to this and to `fitted`.
     decoupling::OuterRegion outer(const FittedLayer& fitted, const DecouplingOptions& options) const;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -125,6 +126,52 @@ TEST(InternalLines, RunThroughLayersWhichKeepTheirFirstHeights) {
                     EXPECT_TRUE(std::binary_search(edges.begin(), edges.end(), Segment{a, b}));
                 }
             }
+}
+
+TEST(InternalLines, SeveralAtOneVertexOfAWallHaveRaysOfTheirOwn) {
+    struct Case {
+        std::vector<Point> first, second;
+        std::optional<double> symmetry{};
+        bool on_ground = false;
+    };
+    const Point at{0.6, 0.0456408};  // beside the wall
+    const std::vector<Case> cases{
+        {{at, {0.5, 0.3}}, {at, {0.75, 0.3}}},                              // on either side of the normal
+        {{at, {0.75, 0.3}}, {at, {0.7, 0.3}}},                              // on one side
+        {{{1, 0}, {1.3, 0.1}}, {{1, 0}, {1.3, 0.12}}},                      // nearer to each other than rays of a fan
+        {{{1, 0}, {0.9, 0.3}}, {{1, 0}, {1.3, -0.1}}},                      // before the fan, and in it
+        {{{0, 0}, {-0.3, 0.1}}, {{0, 0}, {-0.3, 0.02}}, 0},                 // at the nose of a half model
+        {{{0.6, -10}, {0.58, -0.1}}, {{0.6, -10}, {0.63, -0.1}}, {}, true}  // on the ground
+    };
+    for (const Case& c : cases)
+        for (const LayerTopology topology : {LayerTopology::layered, LayerTopology::quads, LayerTopology::delaunay}) {
+            SCOPED_TRACE(testing::Message() << "case " << &c - cases.data() << ", " << static_cast<int>(topology));
+            CaseOptions options = options_with(
+                {{.name = "first", .points = c.first, .two_sided = true}, {.name = "second", .points = c.second}});
+            options.layer.topology = topology;
+            options.layer.first_height = Length{1e-4};
+            options.far_field.symmetry = c.symmetry;
+            if (c.on_ground) {
+                options.far_field.ground = Length{0.2 - 0.0600173};
+                options.far_field.ground_wall = OuterWallKind::moving;
+                for (InternalLine& line : options.lines) line.points[0].y = -0.2;
+            }
+            const MeshResult result = generate_mesh({"naca:0012"}, options);
+            EXPECT_TRUE(check_mesh(result.mesh).valid());
+            EXPECT_EQ(result.check.walls.bare_edges, 0u);
+            for (const auto& wall : result.check.walls.first_heights) EXPECT_EQ(wall.share_of_kept, 1);
+            EXPECT_EQ(marker_of(result.mesh, "first")->kind, MarkerKind::wall);
+            const std::vector<Segment> edges = sorted_edges(result.mesh);
+            for (const char* name : {"first", "second"}) {
+                const InternalLine& line = options.lines[name == std::string("second")];
+                const double length = length_of(result.mesh, *marker_of(result.mesh, name));
+                EXPECT_NEAR(length, (line.two_sided ? 2 : 1) * distance(line.points[0], line.points[1]), 1e-3);
+                for (const Segment& edge : marker_of(result.mesh, name)->edges) {
+                    const auto [a, b] = std::minmax(edge.a, edge.b);
+                    EXPECT_TRUE(std::binary_search(edges.begin(), edges.end(), Segment{a, b}));
+                }
+            }
+        }
 }
 
 TEST(InternalLines, EndOnWallsOfTheDomain) {

@@ -330,7 +330,12 @@ std::vector<std::vector<FrontCorner>> front_corners(const Rays& rays) {
     for (std::size_t e = 0; e < set.elements(); ++e) {
         const std::size_t begin = set.begin[e], end = set.begin[e + 1];
         if (rays.is_outer(e)) {
-            for (std::size_t i = begin; i < end; ++i) fronts[e].push_back({i, i < rays.domain_end(e) ? counts[i] : 0});
+            const std::size_t shown = rays.domain_end(e);
+            for (std::size_t i = begin; i < end; ++i) {
+                const bool goes_on = i + 1 < shown && set.lines[i].origin == set.lines[i + 1].origin;
+                if (goes_on && counts[i] == 0 && counts[i + 1] == 0) continue;
+                fronts[e].push_back({i, i < shown ? counts[i] : 0});
+            }
             continue;
         }
         for (std::size_t i = begin; i < end; ++i) {

@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cstdint>
 #include <iterator>
+#include <set>
 #include <span>
 #include <utility>
 
@@ -382,11 +383,10 @@ LayerCells cells_of(const Layer& layer, std::vector<Triangle> triangles) {
     return cells;
 }
 
-}  // namespace
-
-delaunay::pieces::PiecewiseTriangulation triangulate_layer(const Layer& layer, const DecompositionOptions& options,
-                                                           core::BusyTimes* times) {
-    if (layer.edges.region.empty()) return {};
+/// Returns the triangles as triangulate_layer() does, but without regard to lines.
+delaunay::pieces::PiecewiseTriangulation triangulate_without_lines(const Layer& layer,
+                                                                   const DecompositionOptions& options,
+                                                                   core::BusyTimes* times) {
     const std::vector<char> used = used_points(layer);
     if (std::find(used.begin(), used.end(), 0) == used.end())
         return delaunay::pieces::triangulate_in_pieces(layer.points, layer.edges.region, options, times);
@@ -404,6 +404,41 @@ delaunay::pieces::PiecewiseTriangulation triangulate_layer(const Layer& layer, c
     auto pieces = delaunay::pieces::triangulate_in_pieces(points, region, options, times);
     for (Triangle& t : pieces.triangles)
         for (VertexId& v : t.v) v = id_in_layer[v.index()];
+    return pieces;
+}
+
+/// Returns the edges of the rays along lines.
+std::vector<Segment> edges_along_lines(const Layer& layer) {
+    std::vector<Segment> edges;
+    for (const std::vector<Ray>& rays : layer.rays)
+        for (const Ray& ray : rays)
+            for (std::uint32_t n = 1; ray.along_line && n <= ray.layers; ++n)
+                edges.push_back({ray.vertex(n - 1), ray.vertex(n)});
+    return edges;
+}
+
+/// Returns whether all these edges are edges of triangles.
+bool holds_edges(std::span<const Triangle> triangles, std::span<const Segment> edges) {
+    if (edges.empty()) return true;
+    std::set<std::pair<VertexId, VertexId>> missing;
+    for (const Segment& edge : edges) missing.insert(std::minmax(edge.a, edge.b));
+    for (const Triangle& t : triangles)
+        for (int k = 0; k < 3; ++k) missing.erase(std::minmax(t.v[k], t.v[(k + 1) % 3]));
+    return missing.empty();
+}
+
+}  // namespace
+
+delaunay::pieces::PiecewiseTriangulation triangulate_layer(const Layer& layer, const DecompositionOptions& options,
+                                                           core::BusyTimes* times) {
+    if (layer.edges.region.empty()) return {};
+    auto pieces = triangulate_without_lines(layer, options, times);
+    const std::vector<Segment> lines = edges_along_lines(layer);
+    if (holds_edges(pieces.triangles, lines)) return pieces;
+    std::vector<Segment> segments = layer.edges.region;
+    segments.insert(segments.end(), lines.begin(), lines.end());
+    pieces.triangles = triangulate(layer.points, segments, {.keep = KeptRegion::left_of_segments}).triangles;
+    pieces.first = {0, pieces.triangles.size()};
     return pieces;
 }
 

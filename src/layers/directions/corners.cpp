@@ -45,6 +45,7 @@ public:
     std::size_t size() const { return vertices_.size(); }
     Point at(std::size_t i) const { return vertices_[i % size()].at; }
     bool is_wall(std::size_t i) const { return vertices_[i % size()].place == RayPlace::wall; }
+    bool has_lines(std::size_t i) const { return !vertices_[i % size()].feet.empty(); }
     /// Returns the angle by which the outline turns at a vertex, in radians; > 0 where the body is convex.
     double turning(std::size_t i) const { return core::angle_between(at(i) - at(i + size() - 1), at(i + 1) - at(i)); }
 
@@ -86,10 +87,13 @@ bool sees_corner(const Outline& outline, std::size_t before, std::size_t corner,
 }
 
 /// Returns how many vertices away from vertex i, on both sides, rays are to stand, where it is a sharp corner; else 0.
+/// Vertices where lines end have rays.
 std::size_t reach_of_corner(const Outline& outline, std::size_t i, double first_height) {
     const std::size_t n = outline.size();
     if (!outline.is_wall(i) || outline.turning(i) > -core::radians(180 - largest_sharp_deg)) return 0;
     for (std::size_t k = 1; k <= std::min({most_vertices, i, n - i}); ++k) {
+        for (const std::size_t beside : {i + n - k + 1, i + k - 1})
+            if (outline.has_lines(beside)) return 0;
         for (const std::size_t beside : {i + n - k, i + k})
             if (!outline.is_wall(beside + n - 1) || !outline.is_wall(beside) || !outline.is_wall(beside + 1)) return 0;
         if (distance(outline.at(i + n - k), outline.at(i + k)) < 2 * first_height) continue;

@@ -167,20 +167,32 @@ ChainLeans minimise_leans(std::span<const ColumnLack> lacks, std::span<const Lea
     return result;
 }
 
+LeanBounds fan_bounds(const WallVertex& vertex, bool is_last) {
+    const double most = core::radians(most_fan_lean_deg), given = std::min(most, most_given_share * vertex.turning);
+    const LeanBounds free = is_last ? LeanBounds{-given, most} : LeanBounds{-most, given};
+    if (vertex.lines.empty()) return free;
+    const double to_line =
+        is_last ? vertex.lines.back().angle - 0.5 * vertex.turning : vertex.lines.front().angle + 0.5 * vertex.turning;
+    const bool is_outside = is_last ? to_line > 0 : to_line < 0;
+    if (is_outside || vertex.turning <= 0) return {to_line, to_line};
+    return is_last ? LeanBounds{std::max(-given, to_line), most} : LeanBounds{-most, std::min(given, to_line)};
+}
+
 namespace {
 
 /// Returns the largest lean that lines ask of rays beside them, which otherwise meet those along the lines: that of a
 /// line, but no more than slants allow.
 double lean_beside_lines(std::span<const WallVertex> vertices) {
     double most = 0;
-    for (const WallVertex& vertex : vertices) most = std::max(most, std::abs(vertex.lean_of_line.value_or(0)));
+    for (const WallVertex& vertex : vertices)
+        if (!vertex.lines.empty()) most = std::max({most, std::abs(vertex.lean[0]), std::abs(vertex.lean[1])});
     return std::min(most, core::atan2_reproducible(std::sqrt(max_slant * max_slant - 1), 1));
 }
 
 /// Returns the bounds of the lean of the one ray of a vertex. shorter_edge: length of the shorter one of its edges;
 /// beside_lines: lean_beside_lines().
 LeanBounds bounds_of_ray(const WallVertex& vertex, double first_height, double shorter_edge, double beside_lines) {
-    if (vertex.lean_of_line) return {*vertex.lean_of_line, *vertex.lean_of_line};
+    if (!vertex.lines.empty()) return {vertex.lean[0], vertex.lean[0]};
     const double from_normals =
         std::max(core::radians(most_lean_from_normals_deg), beside_lines) - 0.5 * std::abs(vertex.turning);
     const double most = std::min({std::max(core::radians(most_lean_deg), beside_lines), from_normals,
@@ -210,10 +222,8 @@ Leaners leaners_of(std::span<const RayVertex> outline, std::span<const double> h
         const double edge = distance(outline[i].at, outline[next].at),
                      height = fronts * std::max(heights[i], heights[next]);
         if (vertex.fan) {
-            const double most = core::radians(most_fan_lean_deg),
-                         given = std::min(most, most_given_share * vertex.turning);
             result.lacks.push_back(nothing);
-            result.bounds.insert(result.bounds.end(), {{-most, given}, {-given, most}});
+            result.bounds.insert(result.bounds.end(), {fan_bounds(vertex, false), fan_bounds(vertex, true)});
             result.leans.push_back(&vertex.lean[0]);
         } else {
             result.bounds.push_back(bounds_of_ray(vertex, first_height, std::min(edge_before, edge), beside_lines));

@@ -9,7 +9,6 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -26,6 +25,8 @@ namespace lamina::layers {
 /// Bounds of the lean of a ray, in radians.
 struct LeanBounds {
     double least, most;
+
+    double clamped(double lean) const { return lean < least ? least : lean > most ? most : lean; }
 };
 
 /// The solution, and what it took.
@@ -56,6 +57,12 @@ struct ColumnLack {
 ChainLeans minimise_leans(std::span<const ColumnLack> lacks, std::span<const LeanBounds> bounds, double weight,
                           double stiffness);
 
+/// A line that ends at a vertex.
+struct LineAtVertex {
+    double angle;  ///< from the vertex's bisector to the line, in radians, counter-clockwise
+    LineFoot foot;
+};
+
 /// A vertex of an outline with the outward normals round it.
 struct WallVertex {
     double turning;       ///< angle between the two edges in radians; > 0 where the body is convex
@@ -64,9 +71,12 @@ struct WallVertex {
     Point bisector;       ///< outward unit vector
     bool fan;             ///< whether it has several rays, from normal_before to normal_after; else one, the bisector
     double lean[2]{};     ///< angles by which the first and the last ray lean, in radians, counter-clockwise
-    /// The lean of a ray along a line that ends there, and nothing elsewhere.
-    std::optional<double> lean_of_line{};
+    std::vector<LineAtVertex> lines{};  ///< those that end there, by their angles
 };
+
+/// Returns the bounds of the lean of the first ray of a fan, or of the last one. Those along lines do not lean. Precondition:
+/// vertex.fan.
+LeanBounds fan_bounds(const WallVertex& vertex, bool is_last);
 
 /// Returns the angle to which columns of an outline may open without more rays, in radians: LayerOptions::max_ray_angle_deg, or,
 /// where corners follow each other closely, max_jagged_ray_angle_deg if that is more.

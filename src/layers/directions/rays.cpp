@@ -31,10 +31,33 @@ Point bisector(Point tangent_before, Point tangent_after, double turning) {
     return turning > 0 ? unit(tangent_before - tangent_after) : unit(tangent_after - tangent_before);
 }
 
-/// Returns the lean of a ray along a line in this direction; nothing where the line is not in front of both edges.
-std::optional<double> lean_of_line(const WallVertex& vertex, Point direction) {
-    if (!(dot(vertex.normal_before, direction) > 0) || !(dot(vertex.normal_after, direction) > 0)) return {};
-    return core::angle_between(vertex.bisector, direction);
+/// Returns lines by their angles from a direction.
+std::vector<LineAtVertex> sorted_lines(std::span<const LineFoot> feet, Point middle) {
+    std::vector<LineAtVertex> lines;
+    for (const LineFoot& foot : feet) lines.push_back({core::angle_between(middle, foot.direction), foot});
+    std::sort(lines.begin(), lines.end(),
+              [](const LineAtVertex& a, const LineAtVertex& b) { return a.angle < b.angle; });
+    return lines;
+}
+
+/// Sets the lines that end at a vertex, and the leans that they ask for. One line in front of both edges has one ray; others
+/// have a fan.
+void set_lines(std::span<const RayVertex> outline, std::size_t i, WallVertex& vertex) {
+    const std::size_t n = outline.size();
+    const RayVertex &at = outline[i], &before = outline[(i + n - 1) % n], &after = outline[(i + 1) % n];
+    std::vector<LineFoot> feet(at.feet.begin(), at.feet.end());
+    // A trailing edge with a wake is two vertices, one on either side.
+    if (before.place != RayPlace::wall || after.place != RayPlace::wall)
+        std::erase_if(feet, [&](const LineFoot& foot) {
+            return !core::inside_wedge(at.at, before.at, after.at, at.at + foot.direction);
+        });
+    vertex.lines = sorted_lines(feet, vertex.bisector);
+    if (vertex.lines.empty()) return;
+    const Point first = vertex.lines.front().foot.direction;
+    vertex.fan |=
+        vertex.lines.size() > 1 || !(dot(vertex.normal_before, first) > 0) || !(dot(vertex.normal_after, first) > 0);
+    for (const bool is_last : {false, true})
+        vertex.lean[is_last] = vertex.fan ? fan_bounds(vertex, is_last).clamped(0) : vertex.lines.front().angle;
 }
 
 /// Returns the vertices of the outline with their normals, not smoothed yet.
@@ -49,7 +72,7 @@ std::vector<WallVertex> wall_vertices(std::span<const RayVertex> outline, const 
         const double turning = end ? core::pi : core::angle_between(before, after);
         const bool fan = wall && options.corners == CornerRays::fan && turning > core::radians(min_fan_turning_deg);
         vertices[i] = {turning, -perpendicular(before), -perpendicular(after), bisector(before, after, turning), fan};
-        if (outline[i].foot && !fan) vertices[i].lean_of_line = lean_of_line(vertices[i], outline[i].foot->direction);
+        if (!outline[i].feet.empty()) set_lines(outline, i, vertices[i]);
         before = after;
     }
     return vertices;
@@ -57,24 +80,74 @@ std::vector<WallVertex> wall_vertices(std::span<const RayVertex> outline, const 
 
 Point leaning(Point direction, double lean) { return lean == 0 ? direction : unit(core::rotated(direction, lean)); }
 
-Point first_direction(const WallVertex& v) {
-    return leaning(v.fan ? v.normal_before : v.bisector, v.lean_of_line.value_or(v.lean[0]));
-}
+Point first_direction(const WallVertex& v) { return leaning(v.fan ? v.normal_before : v.bisector, v.lean[0]); }
 Point last_direction(const WallVertex& v) { return leaning(v.fan ? v.normal_after : v.bisector, v.lean[1]); }
 
 /// Returns half of the angle between the first and the last ray of a fan, in radians.
 double half_fan(const WallVertex& v) { return 0.5 * (v.turning + v.lean[1] - v.lean[0]); }
 
-/// Turns the ray between the first and the last one of a fan that is nearest to a line into it, if the line is in the
-/// fan.
-void turn_to_line(const LineFoot& foot, double max_angle, std::span<RayLine> fan) {
-    if (fan.size() < 3) return;
-    const auto away = [&](const RayLine& ray) { return std::abs(core::angle_between(ray.direction, foot.direction)); };
-    const auto nearest = std::min_element(fan.begin() + 1, fan.end() - 1,
-                                          [&](const RayLine& a, const RayLine& b) { return away(a) < away(b); });
-    if (away(*nearest) >= max_angle || away(fan.front()) == 0 || away(fan.back()) == 0) return;
-    nearest->direction = foot.direction;
-    nearest->line_room = foot.room;
+/// A ray that a fan must have.
+struct FanRay {
+    double angle;  ///< from the middle of the fan
+    Point direction;
+    double line_room;  ///< RayLine::line_room
+};
+
+/// Returns into how many parts the angles between these rays are divided, so that none exceeds the largest angle; or as many
+/// in all as are asked for.
+std::vector<std::size_t> parts_of_fan(std::span<const FanRay> fan, double max_angle,
+                                      std::optional<std::uint32_t> in_all) {
+    std::vector<std::size_t> parts;
+    for (std::size_t k = 1; k < fan.size(); ++k)
+        parts.push_back(in_all ? 1 : angle_parts(fan[k].angle - fan[k - 1].angle, max_angle));
+    if (!in_all || parts.empty()) return parts;
+    const auto angle_of_part = [&](std::size_t k) {
+        return (fan[k + 1].angle - fan[k].angle) / static_cast<double>(parts[k]);
+    };
+    for (std::size_t sum = parts.size(); sum < *in_all; ++sum) {
+        std::size_t widest = 0;
+        for (std::size_t k = 1; k < parts.size(); ++k)
+            if (angle_of_part(k) > angle_of_part(widest)) widest = k;
+        ++parts[widest];
+    }
+    return parts;
+}
+
+/// Adds these rays and those between. They are copies of `ray` but for their directions.
+void add_fan(const RayLine& ray, Point middle, std::span<const FanRay> fan, std::span<const std::size_t> parts,
+             std::vector<RayLine>& rays) {
+    const auto add = [&](Point direction, double line_room) {
+        rays.push_back(ray);
+        rays.back().direction = direction;
+        rays.back().line_room = line_room;
+    };
+    for (std::size_t k = 0; k < fan.size(); ++k) {
+        add(fan[k].direction, fan[k].line_room);
+        for (std::size_t part = 1; k + 1 < fan.size() && part < parts[k]; ++part) {
+            const double share = static_cast<double>(part), rest = static_cast<double>(parts[k] - part);
+            const double angle = (rest * fan[k].angle + share * fan[k + 1].angle) / static_cast<double>(parts[k]);
+            add(unit(core::rotated(middle, angle)), 0);
+        }
+    }
+}
+
+/// Returns the rays along lines.
+std::vector<FanRay> rays_along(std::span<const LineAtVertex> lines) {
+    std::vector<FanRay> rays;
+    for (const LineAtVertex& line : lines) rays.push_back({line.angle, line.foot.direction, line.foot.room});
+    return rays;
+}
+
+/// Returns the rays that the fan of a vertex with lines must have: those along lines, and the first and the last one of a fan
+/// unless a line is there.
+std::vector<FanRay> rays_at_lines(const WallVertex& vertex) {
+    constexpr double same = 0x1p-11;  // radians; leans are rounded to half of it
+    std::vector<FanRay> rays = rays_along(vertex.lines);
+    if (!vertex.fan) return rays;
+    const double first = vertex.lean[0] - 0.5 * vertex.turning, last = vertex.lean[1] + 0.5 * vertex.turning;
+    if (first < rays.front().angle - same) rays.insert(rays.begin(), {first, first_direction(vertex), 0});
+    if (last > rays.back().angle + same) rays.push_back({last, last_direction(vertex), 0});
+    return rays;
 }
 
 /// Adds the ray or the fan of a vertex, which has `fan_parts` parts, or as many as max_angle asks for. The angles of a
@@ -84,9 +157,10 @@ void add_vertex_rays(const RayVertex& at, const WallVertex& vertex, double max_a
     const auto add = [&](Point direction) {
         rays.push_back({at.at, direction, at.place, at.opening, at.least_height});
     };
-    if (vertex.lean_of_line) {
-        add(at.foot->direction);
-        rays.back().line_room = at.foot->room;
+    if (!vertex.lines.empty()) {
+        const std::vector<FanRay> fan = rays_at_lines(vertex);
+        add_fan({at.at, {}, at.place, at.opening, at.least_height}, vertex.bisector, fan,
+                parts_of_fan(fan, max_angle, fan_parts), rays);
         return;
     }
     add(first_direction(vertex));
@@ -98,7 +172,6 @@ void add_vertex_rays(const RayVertex& at, const WallVertex& vertex, double max_a
         add(unit(core::rotated(vertex.bisector, middle + share * half)));
     }
     add(last_direction(vertex));
-    if (at.foot) turn_to_line(*at.foot, max_angle, std::span(rays).last(parts + 1));
 }
 
 /// What decides on the rays between two vertices of a wall.
@@ -166,7 +239,7 @@ std::vector<RayLine> make_rays(std::span<const RayVertex> outline, OutlineKind k
         if (!outline[i].corner_after.empty()) continue;
         if (options.equal_fans || outline[i].place != RayPlace::wall || outline[next].place != RayPlace::wall) continue;
         // Columns beside a line open by its lean, on edges however short: rays would ask for a finer wall, and so on.
-        if (vertices[i].lean_of_line || vertices[next].lean_of_line) continue;
+        if (!vertices[i].lines.empty() || !vertices[next].lines.empty()) continue;
         const RayLine after{.origin = outline[next].at,
                             .direction = first_direction(vertices[next]),
                             .least_height = outline[next].least_height};
@@ -174,6 +247,12 @@ std::vector<RayLine> make_rays(std::span<const RayVertex> outline, OutlineKind k
         add_refining_rays(RayLine(rays.back()), after, {most_opening(kind, options), rules, place, height}, rays);
     }
     return rays;
+}
+
+void add_rays_along_lines(Point at, Point normal, std::span<const LineFoot> feet, double max_angle,
+                          std::vector<RayLine>& rays) {
+    const std::vector<FanRay> fan = rays_along(sorted_lines(feet, normal));
+    add_fan({at, {}}, normal, fan, parts_of_fan(fan, max_angle, {}), rays);
 }
 
 std::uint32_t equal_fan_parts(const LayerOptions& options) {

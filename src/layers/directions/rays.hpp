@@ -26,4 +26,9 @@ std::vector<RayLine> make_rays(std::span<const RayVertex> outline, OutlineKind k
                                const LayerGrowth& growth, std::span<const double> heights = {},
                                const PlaceOnWall& place_on_wall = {});
 
+/// Adds the rays of a vertex of a straight wall along the lines that end there, and rays between, so that neighbours differ by
+/// at most this angle, in radians. Precondition: feet is not empty.
+void add_rays_along_lines(Point at, Point normal, std::span<const LineFoot> feet, double max_angle,
+                          std::vector<RayLine>& rays);
+
 }  // namespace lamina::layers

@@ -18,7 +18,7 @@ struct RayVertex {
     double opening = 1;                 ///< RayLine::opening
     double least_height = 0;            ///< RayLine::least_height
     std::vector<Point> corner_after{};  ///< RayLine::corner_after
-    const LineFoot* foot = nullptr;     ///< of a line that ends there
+    std::span<const LineFoot> feet{};   ///< of the lines that end there
 };
 
 /// A pair of vertices of a wake, one on either side: the same point but behind a blunt base, where the sides have yet
