@@ -21,7 +21,7 @@ namespace {
 
 using surface::CurvedEdge;
 
-constexpr const char* sheets_are_straight = "sheets have straight cells";
+constexpr const char* sheets_are_straight = "sheets have straight cells: leave --order out";
 
 /// The curves of walls, by whether the mesh follows them.
 struct CurvesByEdges {
@@ -103,7 +103,8 @@ void validate_order(const CaseOptions& options) {
     if (options.order == 1) return;
     if (options.layer.enabled && options.layer.topology == LayerTopology::delaunay)
         refuse("curved cells stand in columns: take --layer-topology quads or layered");
-    if (options.far_field.pitch) refuse("the borders of a row of blades match with straight cells alone");
+    if (options.far_field.pitch)
+        refuse("the borders of a row of blades match with straight cells alone: leave --order out");
     if (!options.geometry.sheets.empty()) refuse(sheets_are_straight);
 }
 

@@ -147,6 +147,28 @@ void add_images(const Element& element, double y, VerticesOnEdges& after) {
     }
 }
 
+/// Adds vertices on the other side of sheets where lines that end on one side stand.
+void add_across_sheets(const Element& element, VerticesOnEdges& after) {
+    constexpr double same = 1e-6;  // of an edge: a line that crosses a sheet has a vertex on both sides
+    const std::vector<Point>& p = element.points;
+    const std::size_t n = p.size();
+    const VerticesOnEdges given = after;
+    for (const geometry::SheetRange& range : geometry::sheet_ranges(element))
+        for (std::size_t i = range.first; i < range.last; ++i) {
+            const auto found = given.find(i % n);
+            if (found == given.end()) continue;
+            const std::size_t edge = range.across(i, n);
+            const Point a = p[i % n], b = p[(i + 1) % n], c = p[edge], d = p[(edge + 1) % n];
+            std::vector<Point>& across = after[edge];
+            for (const Point q : found->second) {
+                const double share = distance(b, q) / distance(a, b);
+                const auto is_same = [&](Point r) { return std::abs(distance(c, r) / distance(c, d) - share) < same; };
+                if (std::none_of(across.begin(), across.end(), is_same)) across.push_back(c + share * (d - c));
+            }
+            std::sort(across.begin(), across.end(), [&](Point q, Point r) { return distance(c, q) < distance(c, r); });
+        }
+}
+
 /// Puts vertices into the outline of an element.
 void insert_vertices(const VerticesOnEdges& after, Element& element) {
     std::vector<Point> points;
@@ -323,20 +345,6 @@ void require_connected_domain(const LineGraph& graph, const Geometry& geometry) 
     }
 }
 
-/// Throws OptionError for lines that meet sheets, whose sides are a gap apart there.
-void require_clear_of_sheets(const LineGraph& graph, const Geometry& geometry) {
-    std::set<Point, core::LexicographicOrder> on_sheets;
-    for (const Element& element : geometry.elements)
-        for (const geometry::SheetRange& range : geometry::sheet_ranges(element))
-            for (std::size_t i = range.first; i <= range.last; ++i)
-                on_sheets.insert(element.points[i % element.points.size()]);
-    for (std::size_t i = 0; i < graph.pieces.size(); ++i)
-        for (const VertexId v : {graph.pieces[i].a, graph.pieces[i].b})
-            if (const Point p = graph.points[v.index()]; on_sheets.contains(p))
-                refuse(graph.given[graph.line[i]],
-                       fmt::format("it meets a sheet near ({:.4g}, {:.4g}): leave a gap", p.x, p.y));
-}
-
 /// Throws OptionError where lines have no place in the domain.
 void require_place_for_lines(std::span<const InternalLine> lines, const Strip& strip) {
     const Box& domain = strip.domain;
@@ -408,6 +416,7 @@ LineGraph arrange_lines(std::span<const InternalLine> lines, const decoupling::F
         arrangement.points.begin(), arrangement.points.begin() + static_cast<std::ptrdiff_t>(arrangement.wall_points));
     for (std::size_t e = 0; e < geometry.elements.size(); ++e) {
         if (inserted[e].empty()) continue;
+        if (!geometry.elements[e].sheets.empty()) add_across_sheets(geometry.elements[e], inserted[e]);
         for (const auto& [edge, points] : inserted[e]) on_wall.insert(points.begin(), points.end());
         if (geometry.elements[e].is_mirrored) add_images(geometry.elements[e], *geometry.symmetry, inserted[e]);
         insert_vertices(inserted[e], geometry.elements[e]);
@@ -415,7 +424,6 @@ LineGraph arrange_lines(std::span<const InternalLine> lines, const decoupling::F
     LineGraph graph = number_pieces(arrangement, pieces, moved, on_wall, strip);
     graph.given.assign(lines.begin(), lines.end());
     require_connected_domain(graph, geometry);
-    require_clear_of_sheets(graph, geometry);
     return graph;
 }
 

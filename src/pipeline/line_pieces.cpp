@@ -40,6 +40,8 @@ std::vector<std::vector<Point>> ends_of_pieces(const LineGraph& graph) {
 }
 
 std::vector<SizeSource> sizes_between(const LineGraph& graph, std::span<const double> shifts) {
+    // A line that crosses a sheet goes on behind a tiny gap. Of the piece, that is nothing, as for a vertex of its own.
+    constexpr double across_sheet = 1e-6;
     std::vector<std::vector<Point>> pieces = ends_of_pieces(graph);
     add_copies(shifts, pieces);
     std::vector<Box> boxes;
@@ -50,7 +52,8 @@ std::vector<SizeSource> sizes_between(const LineGraph& graph, std::span<const do
     for (const Point p : graph.points) {
         const double nearest = tree.min_distance(p, HUGE_VAL, [&](std::size_t k) {
             const Point a = pieces[k].front(), b = pieces[k].back();
-            return a == p || b == p ? HUGE_VAL : core::distance_to_segment(p, a, b);
+            const double apart = core::distance_to_segment(p, a, b);
+            return apart <= across_sheet * distance(a, b) ? HUGE_VAL : apart;
         });
         if (std::isfinite(nearest) && nearest > 0) sources.push_back({.a = p, .b = p, .size = nearest});
     }

@@ -215,9 +215,9 @@ void take_cells(const layers::Layer& layer, MadePieces& pieces, MeshResult& resu
 void complete_walls_without_thickness(std::span<const InternalLine> lines, double min_angle_deg, MadeMesh& made) {
     MeshResult& result = made.result;
     if (lines.empty() && !has_sheets(result.geometry)) return;
+    close_sheets(result);
     split_two_sided(lines, result.mesh, made.constraints);
     result.mesh.constraints = made.constraints;
-    close_sheets(result);
     WallSummary walls = std::move(result.check.walls);
     const std::size_t without_first_layer = result.check.edges_without_first_layer;
     result.check = check_mesh(result.mesh, {.min_angle_deg = min_angle_deg,
