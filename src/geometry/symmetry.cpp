@@ -209,7 +209,8 @@ void mirror_again(Geometry& geometry) {
         std::vector<Part> parts = parts_above(points, y);
         const auto longest = std::max_element(parts.begin(), parts.end(),
                                               [](const Part& a, const Part& b) { return a.size() < b.size(); });
-        if (longest == parts.end() || longest->size() < 3) refuse(element, element.points.front(), "is too thin there");
+        if (longest == parts.end() || longest->size() < 3)
+            refuse(element, element.points.front(), "is too thin at the line of symmetry: raise it, or move the line");
         Part& part = *longest;
         const auto is_vertex = [&](const PartPoint& end) {
             return std::any_of(points.begin(), points.end(), [&](const PartPoint& p) { return p.at == end.at; });

@@ -160,7 +160,9 @@ std::vector<SizeSource> gaps_above_symmetry(const FittedLayer& fitted, std::span
             const double size = edge_over_gap * (std::min(a.y, b.y) - fitted.far_field.floor);
             if (!(size > 0))
                 throw MeshError(
-                    fmt::format("the layer of {} reaches the line of symmetry", fitted.geometry.elements[e].name), a);
+                    fmt::format("the layer of {} reaches the line of symmetry: raise it, or lower --first-height",
+                                fitted.geometry.elements[e].name),
+                    a);
             if (size < distance(a, b)) sources.push_back({.a = a, .b = b, .size = size});
         }
     }

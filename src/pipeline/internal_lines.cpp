@@ -47,7 +47,7 @@ void validate_points(const InternalLine& line) {
             refuse(line, "runs back on itself");
     }
     if (line.two_sided && line.points.front() == line.points.back())
-        refuse(line, "a line with two sides must not enclose a region of its own");
+        refuse(line, "a line with two sides must not enclose a region of its own: leave a gap");
 }
 
 }  // namespace
@@ -85,7 +85,7 @@ void validate_lines(std::span<const InternalLine> lines) {
             refuse(
                 line,
                 "is no name that every format takes: it begins with a letter, and letters, digits, _, - and . follow");
-        if (!names.insert(line.name).second) refuse(line, "two lines have this name");
+        if (!names.insert(line.name).second) refuse(line, "two lines have this name: give each its own");
         validate_points(line);
         if (line.size && !(*line.size > 0)) refuse(line, "the size must be > 0");
     }

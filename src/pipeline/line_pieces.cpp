@@ -314,7 +314,7 @@ void add_line_markers(const LineGraph& graph, const FeetInLayer& feet,
     const std::vector<InternalLine>& lines = graph.given;
     for (std::uint32_t k = 0; k < lines.size(); ++k) {
         if (std::any_of(markers.begin(), markers.end(), [&](const Marker& m) { return m.name == lines[k].name; }))
-            throw OptionError("line", lines[k].name + ": another marker has this name already");
+            throw OptionError("line", lines[k].name + ": another marker has this name already, so take another one");
         Marker marker{lines[k].name, MarkerKind::internal, {}};
         for (std::size_t i = 0; i < graph.pieces.size(); ++i) {
             if (graph.line[i] != k) continue;

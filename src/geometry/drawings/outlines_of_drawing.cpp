@@ -221,13 +221,18 @@ std::vector<RawOutline> outlines_of_plane(std::span<const FlatCurve> curves, con
     std::erase_if(open, [&](const Outline& o) { return is_one_straight_line(curves, o.chain); });
     if (closed.empty()) {
         if (open.empty())
-            throw InputError({file, curves[0].line, {}}, "the drawing has straight lines alone, and no outline");
+            throw InputError({file, curves[0].line, {}},
+                             "the drawing has straight lines alone, and no outline: join them to a closed polyline, or "
+                             "export points, one line 'x y' each");
         if (open.size() > 1 && !keep_open) refuse_open(open, curves, file);
         std::swap(closed, open);
     }
     if (!open.empty()) notes.push_back(core::counted(open.size(), "open chain") + " of curves left out");
     std::vector<Outline> outlines = Selection(std::move(closed), notes).take();
-    if (outlines.empty()) throw InputError({file, curves[0].line, {}}, "the drawing has no outline with an inside");
+    if (outlines.empty())
+        throw InputError({file, curves[0].line, {}},
+                         "the drawing has no outline with an inside: export the section as a closed curve, or points, "
+                         "one line 'x y' each");
     if (outlines.size() > max_drawn_outlines)
         throw InputError({file, 1, {}}, fmt::format("more than {} outlines in one drawing", max_drawn_outlines));
 
