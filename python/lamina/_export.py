@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ._optional import packages_of
+
 if TYPE_CHECKING:
     from ._mesh import Mesh
 
@@ -29,7 +31,8 @@ def _points_3d(mesh: Mesh) -> np.ndarray:
 
 def to_meshio(mesh: Mesh) -> Any:
     """Mesh.to_meshio()."""
-    import meshio  # type: ignore[import-untyped]
+    with packages_of("meshio"):
+        import meshio  # type: ignore[import-untyped]
 
     blocks = [("triangle", mesh.triangles), ("quad", mesh.quads)]
     cells = [(kind, np.asarray(block, dtype=np.int64)) for kind, block in blocks if len(block)]
@@ -49,7 +52,8 @@ def to_meshio(mesh: Mesh) -> Any:
 
 def to_pyvista(mesh: Mesh) -> Any:
     """Mesh.to_pyvista()."""
-    import pyvista
+    with packages_of("pyvista"):
+        import pyvista
 
     blocks = {pyvista.CellType.TRIANGLE: mesh.triangles, pyvista.CellType.QUAD: mesh.quads}
     grid = pyvista.UnstructuredGrid({kind: block for kind, block in blocks.items() if len(block)}, _points_3d(mesh))
@@ -68,8 +72,9 @@ def _edge_lengths(mesh: Mesh) -> np.ndarray:
 
 def to_pyg(mesh: Mesh) -> Any:
     """Mesh.to_pyg()."""
-    import torch  # type: ignore[import-not-found, unused-ignore]
-    from torch_geometric.data import Data  # type: ignore[import-not-found, unused-ignore]
+    with packages_of("graphs"):
+        import torch  # type: ignore[import-not-found, unused-ignore]
+        from torch_geometric.data import Data  # type: ignore[import-not-found, unused-ignore]
 
     index = mesh.edge_index(both_directions=True)
     step = mesh.points[index[1]] - mesh.points[index[0]]
@@ -82,7 +87,8 @@ def to_pyg(mesh: Mesh) -> Any:
 
 def to_networkx(mesh: Mesh) -> Any:
     """Mesh.to_networkx()."""
-    import networkx  # type: ignore[import-untyped, unused-ignore]
+    with packages_of("networkx"):
+        import networkx  # type: ignore[import-untyped, unused-ignore]
 
     graph = networkx.Graph()
     graph.add_nodes_from(range(len(mesh.points)))
@@ -103,7 +109,8 @@ def _face_nodes(mesh: Mesh) -> np.ndarray:
 
 def to_xarray(mesh: Mesh) -> Any:
     """Mesh.to_xarray(). UGRID: https://ugrid-conventions.github.io/ugrid-conventions, "2D flexible mesh topology"."""
-    import xarray
+    with packages_of("xarray"):
+        import xarray
 
     topology = {"cf_role": "mesh_topology", "topology_dimension": 2, "node_coordinates": "x y",
                 "face_node_connectivity": "face_nodes", "edge_node_connectivity": "edge_nodes",

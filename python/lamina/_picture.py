@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ._optional import packages_of
+
 if TYPE_CHECKING:
     from ._mesh import Mesh
     from ._triangulation import Triangulation
@@ -19,7 +21,8 @@ _MAX_CELLS_IN_NOTEBOOK = 200_000
 def _axes(ax: Any) -> Any:
     if ax is not None:
         return ax
-    import matplotlib.pyplot as plt
+    with packages_of("plot"):
+        import matplotlib.pyplot as plt
 
     return plt.subplots()[1]
 
@@ -73,7 +76,8 @@ def _add_lines(ax: Any, points: np.ndarray, edges: np.ndarray, style: dict[str, 
 
 def draw_mesh(mesh: Mesh, ax: Any, window: Any, color: str, style: dict[str, Any]) -> Any:
     """Draws a mesh: Mesh.plot()."""
-    from matplotlib.collections import PolyCollection
+    with packages_of("plot"):
+        from matplotlib.collections import PolyCollection
 
     if color not in ("none", "quality", "size", "piece", "layer"):
         raise ValueError(f"color: '{color}' is none of none, quality, size, piece, layer")

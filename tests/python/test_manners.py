@@ -137,6 +137,16 @@ def test_shapely_and_pandas():
     assert len(lamina.outlines(two)) == 2
 
 
+@pytest.mark.parametrize("package, extra, method", [
+    ("matplotlib", "plot", "plot"), ("meshio", "meshio", "to_meshio"), ("pyvista", "pyvista", "to_pyvista"),
+    ("torch", "graphs", "to_pyg"), ("networkx", "networkx", "to_networkx"), ("xarray", "xarray", "to_xarray")])
+def test_missing_packages_say_how_to_get_them(package, extra, method, small, monkeypatch):
+    for name in [package, *(name for name in sys.modules if name.startswith(package + "."))]:
+        monkeypatch.setitem(sys.modules, name, None)
+    with pytest.raises(ModuleNotFoundError, match=rf"{package}.* is missing: pip install 'lamina-mesh\[{extra}\]'$"):
+        getattr(small, method)()
+
+
 def test_names_of_options_in_messages():
     messages = []
     with warnings.catch_warnings(record=True) as caught:
