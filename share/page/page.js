@@ -105,6 +105,7 @@ class Page {
     this.paint();
     const [start] = [...this.places("walls"), ...this.places("all")];
     if (start) this.view.show(start.window);
+    this.view.draw();
   }
 
   places(kind) {
@@ -541,4 +542,5 @@ async function start() {
     console.error(error);
   }
 }
-start();
+// The page counts as loaded once its picture is there: browsers without a window take one of it then.
+await start();

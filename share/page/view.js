@@ -3,6 +3,9 @@ import {orderTriangles} from "./order.js";
 import {createPainter} from "./painter.js";
 
 const nearWall = 10;  // CSS pixels from a wall vertex that count as a hit
+// Milliseconds that draw() takes at most. For so long pictures stay whole where browsers without a window, which take one
+// as soon as the page is there, change its size before.
+const longestDraw = 4000;
 
 // Returns the way from one view to another as a function of the share of the way, from 0 to 1, and its length. Views
 // are {x, y, width}. Source: J. van Wijk, W. Nuij, Smooth and efficient zooming and panning (2003).
@@ -59,6 +62,7 @@ function clippedSegment(ax, ay, bx, by, box) {
 //   select({cell, vertex}) marks a cell and a vertex, or nothing where they are -1
 //   cellAt(x, y)           the cell at a point, or -1
 //   cellsInView(visit)     calls visit(cell) for the cells whose boxes reach into the view
+//   draw()                 shows the whole picture at once, unless that takes seconds
 //   snapshot()             a canvas with the picture
 //   frameTime()            milliseconds that the last picture took
 //   destroy()
@@ -372,15 +376,26 @@ export function createView(canvas, mesh, options = {}) {
   canvas.style.touchAction = "none";
 
   const resize = () => {
-    const bounds = (canvas.parentElement || canvas).getBoundingClientRect();
+    const bounds = (canvas.parentElement || canvas).getBoundingClientRect(), before = [width, height, ratio];
     [width, height] = [Math.max(1, bounds.width), Math.max(1, bounds.height)];
     ratio = Math.min(2, window.devicePixelRatio || 1);
+    // An observer tells the first size, too. Setting the size of a canvas would clear it.
+    if ([width, height, ratio].every((size, i) => size === before[i])) return;
     for (const surface of [canvas, overlay])
       [surface.width, surface.height] = [Math.round(width * ratio), Math.round(height * ratio)];
     painter.resize(ratio);
     request();
   };
-  const observer = new ResizeObserver(resize);
+  let opening = 0;
+  const draw = () => {
+    if (opening === 0) opening = performance.now() + longestDraw;
+    while (!painter.drawRest(view()) && performance.now() < opening) continue;
+    update();
+  };
+  const observer = new ResizeObserver(() => {
+    resize();
+    if (performance.now() < opening) draw();
+  });
   observer.observe(canvas.parentElement || canvas);
   resize();
   painter.setUp();
@@ -397,7 +412,7 @@ export function createView(canvas, mesh, options = {}) {
       putTheme();
       request();
     },
-    show, view, select, cellAt, cellsInView,
+    show, view, select, cellAt, cellsInView, draw,
     snapshot() {
       while (!painter.drawRest(view()));
       drawOverlay();

@@ -22,6 +22,7 @@ lamina, output = (Path(name).resolve() for name in sys.argv[1:3])
 del sys.argv[1:3]
 repository = Path(__file__).resolve().parents[2]
 first_height = 1e-7
+browser_flags = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
 
 # The error, in pixels, of what the vertex shader computes for vertices in view: the same steps in single precision.
 shader_error = """() => {
@@ -119,7 +120,7 @@ class Report(unittest.TestCase):
         cls.playwright = sync_playwright().start()
         cls.browser = cls.playwright.chromium.launch(
             executable_path="/usr/bin/chromium",
-            args=["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"])
+            args=browser_flags)
 
     @classmethod
     def tearDownClass(cls):
@@ -168,6 +169,19 @@ class Report(unittest.TestCase):
         self.assertNotEqual(page.inner_text("#bar"), before)
         self.go(page, "slot 1")
         page.screenshot(path=output / "high-lift-size.png")
+
+    def test_pictures_without_a_window_are_whole(self):
+        """Chromium takes them as soon as the page is loaded, and changes its size before. Edges take more bytes of a
+        picture than the areas of a rough one."""
+        page = self.open(self.page_file)
+        page.set_viewport_size({"width": 1440, "height": 900})
+        self.settle(page)
+        page.screenshot(path=output / "settled.png")
+        for _ in range(3):
+            taken = output / "without-window.png"
+            subprocess.run(["/usr/bin/chromium", "--headless", *browser_flags, "--window-size=1440,900",
+                            f"--screenshot={taken}", self.page_file.as_uri()], check=True, capture_output=True)
+            self.assertGreater(taken.stat().st_size, 0.8 * (output / "settled.png").stat().st_size)
 
     def test_boxes_do_not_cut_texts(self):
         section = output / "long.dat"
