@@ -210,7 +210,8 @@ struct MeshResult {
     std::optional<YPlus> y_plus;                ///< what the first heights follow from; empty: they were given
     ReferenceConditions conditions;             ///< the chord that lengths count, and the flow
     std::optional<Flow> flow;                   ///< what decided with CaseOptions::use_flow
-    FlowDecisions decisions;                    ///< what it decided
+    std::optional<CompressibleFlow> compressible_flow;  ///< what decided with it beyond the critical Mach number
+    FlowDecisions decisions;                            ///< what it decided
     /// The columns (between two neighbouring rays) of the cells of the layer, first of its triangles, which come first
     /// in the mesh, then of the quads. Empty for Delaunay layers and without layers.
     std::vector<std::uint32_t> columns;

@@ -233,6 +233,7 @@ void leave_out_images(const Geometry& geometry, FlowGuidance& guidance, layers::
     Flow& flow = *guidance.flow;
     if (flow.elements.size() == elements) return;
     flow.elements.resize(elements);
+    if (guidance.compressible) guidance.compressible->elements.resize(elements);
     std::erase_if(flow.warnings, [](const Warning& w) { return w.code == WarningCode::flow_separates; });
     if (std::optional<Warning> wide = flow::find_wide_wake(flow)) flow.warnings.push_back(std::move(*wide));
     const auto is_of_image = [&](const auto& fact) { return fact.element >= elements; };
@@ -393,6 +394,7 @@ FlowGuidance guide_by_flow(const Geometry& given, const FlowWalls& walls, const 
         if (flows.size() > 1)
             guidance.angles.push_back(decisions_at_angle(at, std::span(guidance.spacings).subspan(own)));
     }
+    guidance.compressible = std::move(flows[middle].compressible);
     leave_out_images(given, guidance, growth);
     return guidance;
 }

@@ -68,8 +68,9 @@ void close_gap(const ElementWake& wake, const ElementWake& next, ElementWake& fa
 
 /// The flow before the mesh, and what follows from it beside the growth of the layer.
 struct FlowGuidance {
-    std::optional<Flow> flow;        ///< none: nobody asked for it
-    std::vector<ElementWake> wakes;  ///< one per element or none
+    std::optional<Flow> flow;                      ///< none: nobody asked for it
+    std::optional<CompressibleFlow> compressible;  ///< beyond the critical Mach number, at the same angle as `flow`
+    std::vector<ElementWake> wakes;                ///< one per element or none
     std::vector<geometry::WallSpacing> spacings;
     std::vector<SizeSource> sources;     ///< along shocks
     std::vector<FlowShock> shocks;       ///< beyond the critical Mach number

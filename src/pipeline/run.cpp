@@ -203,6 +203,7 @@ void hand_over_decisions(PlannedLayer& plan, MeshResult& result) {
     if (guidance.flow)
         result.warnings.insert(result.warnings.begin(), guidance.flow->warnings.begin(), guidance.flow->warnings.end());
     result.flow = std::move(guidance.flow);
+    result.compressible_flow = std::move(guidance.compressible);
     result.decisions = flow_decisions(plan.growth, guidance.spacings, plan.fitted);
     result.decisions.shocks = std::move(guidance.shocks);
     result.decisions.knows_shocks = guidance.knows_shocks;

@@ -144,6 +144,11 @@ TEST(SizesAtShocks, FollowTheShock) {
     const FlowShock& shock = with.decisions.shocks[0];
     EXPECT_TRUE(shock.has_layers && with.decisions.knows_shocks);
     EXPECT_FALSE(slow.decisions.knows_shocks);
+    EXPECT_FALSE(slow.compressible_flow);
+    ASSERT_TRUE(with.compressible_flow && with.flow);
+    EXPECT_EQ(with.compressible_flow->mach, 0.8);
+    EXPECT_EQ(with.compressible_flow->alpha_deg, with.flow->alpha_deg);
+    EXPECT_EQ(with.compressible_flow->elements[0].upper.shocks.size(), 1u);
     EXPECT_NEAR(shock.at.x, 0.56, 0.03);
     EXPECT_NEAR(shock.mach_ahead, 1.38, 0.04);
     EXPECT_GT(shock.height, 0.1);

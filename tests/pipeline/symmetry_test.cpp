@@ -299,6 +299,8 @@ TEST(Symmetry, HalvesAreFineAtShocks) {
     ASSERT_FALSE(above.decisions.shocks.empty());
     // Euler solutions of the whole section have it at 0.757; without boundary layers it counts 0.04 further forward.
     EXPECT_NEAR(above.decisions.shocks[0].at.x, 0.717, 0.02);
+    ASSERT_TRUE(above.compressible_flow);
+    EXPECT_EQ(above.compressible_flow->elements.size(), 1u);
 }
 
 TEST(Symmetry, TheMeshDependsOnNeitherThreadsNorTheLine) {
