@@ -16,6 +16,7 @@
 #include <lamina/warning.hpp>
 
 #include "core/marker_names.hpp"
+#include "flows.hpp"
 #include "request.hpp"
 #include "values.hpp"
 
@@ -107,7 +108,7 @@ val places_of(const Mesh& mesh) {
     return list;
 }
 
-val facts_of(const MeshResult& result) {
+val facts_of(const MeshResult& result, const FlowConditions& conditions) {
     val facts = val::object();
     facts.set("chord", result.conditions.chord);
     facts.set("elements", elements_of(result));
@@ -115,6 +116,7 @@ val facts_of(const MeshResult& result) {
     facts.set("layer", quality_of(result.check.layer));
     facts.set("isotropic", quality_of(result.check.isotropic));
     facts.set("curved", curved_of(result));
+    facts.set("flow", flow_facts_of(result, conditions));
     facts.set("seconds", result.seconds.total);
     return facts;
 }
@@ -158,7 +160,7 @@ val generate(const val& inputs, const val& options, const val& progress) {
     require_promised_angles(result, request);
     val reply = val::object();
     reply.set("warnings", warnings_of(result.warnings));
-    reply.set("facts", facts_of(result));
+    reply.set("facts", facts_of(result, request.options.conditions));
     reply.set("mesh", HeldMesh(std::move(result.mesh), std::move(result.curved)));
     return reply;
 }

@@ -3,9 +3,10 @@ import {Mesher, Stopped} from "./client.ts";
 import {caseOfText, CaseHistory, examples, firstNaca, longestLink, textOfCase, type Case} from "./case.ts";
 import {LaminaError} from "./error.ts";
 import {helpOf, OptionForm} from "./form.ts";
-import type {InputFile} from "./values.ts";
+import type {Facts, InputFile} from "./values.ts";
 import type {MadeMesh, Offer} from "./messages.ts";
 import {Picture, placesOf, type Coloring} from "./picture.ts";
+import {nearestPlace, PressureChart} from "./pressures.ts";
 import {countText, numberText} from "report-page/charts.js";
 
 function byId<Kind extends HTMLElement = HTMLElement>(id: string): Kind {
@@ -13,9 +14,21 @@ function byId<Kind extends HTMLElement = HTMLElement>(id: string): Kind {
 }
 
 const mesher = new Mesher();
-const picture = new Picture(byId<HTMLCanvasElement>("view"), byId("bar"), (text) => {
-  byId("picked").hidden = text === "";
-  byId("picked").textContent = text;
+const picture = new Picture(
+  byId<HTMLCanvasElement>("view"),
+  byId("bar"),
+  (text) => {
+    byId("picked").hidden = text === "";
+    byId("picked").textContent = text;
+  },
+  (x, y, reach) => chart.mark(nearestPlace(walls, x, y, reach)),
+);
+/** x and y of the points whose pressures the chart shows. */
+let walls: {x: Float64Array; y: Float64Array}[] = [];
+const chart = new PressureChart(byId("pressures"), (place) => {
+  if (!place) return picture.mark(undefined);
+  const {x, y} = walls[place.element]!;
+  picture.mark([x[place.point]!, y[place.point]!]);
 });
 const naca = byId<HTMLInputElement>("naca"),
   state = byId("state");
@@ -190,11 +203,20 @@ function showError(error: Error | undefined): void {
 
 // --- What came out
 
+function showPressures({flow, chord}: Facts): void {
+  walls = (flow?.elements ?? []).map(({points}) => ({
+    x: points.filter((_, i) => i % 2 === 0),
+    y: points.filter((_, i) => i % 2 === 1),
+  }));
+  chart.setFlow(flow, chord);
+}
+
 function showMesh(made: MadeMesh, names: string): void {
   const {arrays, facts, warnings, seconds} = made,
     places = placesOf(arrays, facts);
   picture.setMesh(arrays, (places[1] ?? places[0]!).box, names === shownInputs);
   shownInputs = names;
+  showPressures(facts);
   byId("places").replaceChildren(...places.map(({name, box}) => make("button", name, () => picture.show(box))));
   const triangles = arrays.triangles.length / 3,
     quads = arrays.quads.length / 4;
@@ -329,6 +351,14 @@ function listFiles(): void {
 function takeInput(): void {
   const chooser = byId<HTMLInputElement>("files");
   byId("naca-option").append(...helpOf("NACA", naca.title));
+  byId("pressures-title").append(
+    ...helpOf(
+      "Pressures",
+      "The pressure coefficient on the walls of the flow before the mesh, over x in chords from the foremost point. It is " +
+        "potential flow with boundary layers, with pressures after Karman and Tsien where a Mach number is given; where " +
+        "flow is faster than sound, beyond cp*, the Euler equations are solved. Point at a curve or at a wall of the mesh.",
+    ),
+  );
   naca.addEventListener("change", changed);
   byId("choose").addEventListener("click", () => chooser.click());
   chooser.addEventListener("change", () => {

@@ -17,6 +17,7 @@ export interface Place {
 /** What people may colour cells by. */
 export type Coloring = "none" | "region" | "minAngle" | "ratio" | "size" | "layer" | "piece";
 
+const pixelsNearWalls = 14;
 const layerColor = [207, 226, 240],
   outerColor = [246, 246, 243];
 
@@ -112,15 +113,28 @@ export class Picture {
   #canvas: HTMLCanvasElement;
   #bar: HTMLElement;
   #onPick: (text: string) => void;
+  #onHover: (x: number, y: number, reach: number) => void;
+  #picked = -1;
   #view: View | undefined;
   #mesh: MeshArrays | undefined;
   #coloring: Coloring = "region";
   #dark = matchMedia("(prefers-color-scheme: dark)");
 
-  constructor(canvas: HTMLCanvasElement, bar: HTMLElement, onPick: (text: string) => void) {
+  /**
+   * `onPick` is called with what a cell that people choose has to tell, `onHover` with the place under the pointer and the
+   * length of some pixels there.
+   */
+  constructor(
+    canvas: HTMLCanvasElement,
+    bar: HTMLElement,
+    onPick: (text: string) => void,
+    onHover: (x: number, y: number, reach: number) => void,
+  ) {
     this.#canvas = canvas;
     this.#bar = bar;
     this.#onPick = onPick;
+    this.#onHover = onHover;
+    canvas.parentElement!.addEventListener("pointermove", (event) => this.#hover(event));
     this.#dark.addEventListener("change", () => this.setColoring(this.#coloring));
   }
 
@@ -143,6 +157,7 @@ export class Picture {
         animate: false,
       });
     } else this.#view.show(box, {animate: false});
+    this.#picked = -1;
     this.#onPick("");
   }
 
@@ -154,6 +169,12 @@ export class Picture {
     this.#setTheme();
     this.#view.setColors(fills);
     this.#bar.replaceChildren(...colorLegend(legend));
+  }
+
+  /** Marks the vertex of a wall that is nearest to a point; none where there is no point. */
+  mark(at: [number, number] | undefined): void {
+    const vertex = at && this.#mesh ? (nearestWallVertex(this.#mesh, ...at)?.vertex ?? -1) : -1;
+    this.#view?.select({cell: this.#picked, vertex});
   }
 
   show(box: Box, animate = true): void {
@@ -182,8 +203,20 @@ export class Picture {
     );
   }
 
+  #hover(event: PointerEvent): void {
+    if (!this.#view || event.target !== this.#canvas) return;
+    const {x, y, scale, width, height} = this.#view.view(),
+      bounds = this.#canvas.getBoundingClientRect();
+    this.#onHover(
+      x + (event.clientX - bounds.left - 0.5 * width) / scale,
+      y - (event.clientY - bounds.top - 0.5 * height) / scale,
+      pixelsNearWalls / scale,
+    );
+  }
+
   #pick(cell: number): void {
     const mesh = this.#mesh!;
+    this.#picked = cell;
     if (cell < 0) return this.#onPick("");
     const {minAngle, maxAngle, aspect, area} = shapeOf(mesh, cell);
     const layer = mesh.layer[cell];

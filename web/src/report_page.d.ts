@@ -57,6 +57,11 @@ declare module "report-page/colors.js" {
 declare module "report-page/charts.js" {
   export function numberText(value: number, digits?: number): string;
   export function countText(count: number): string;
+  export function svgElement(
+    name: string,
+    attributes?: Record<string, string | number>,
+    ...children: (Node | string)[]
+  ): SVGElement;
 }
 
 declare module "report-page/places.js" {

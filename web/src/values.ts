@@ -113,6 +113,29 @@ export interface Curving {
   min_scaled_jacobian: number;
 }
 
+/** The pressures on the walls of one element. */
+export interface WallPressures {
+  name: string;
+  /** x and y of each point, from the trailing edge along the upper side and along the lower one back to it. */
+  points: Float64Array;
+  /** The pressure coefficient at each point. */
+  cp: Float64Array;
+}
+
+/** The flow before the mesh, which decided on first heights, sizes and wakes. */
+export interface FlowFacts {
+  /** The angle of attack in degrees: of several, the one in the middle. */
+  alpha: number;
+  /** Its lift coefficient. */
+  lift: number;
+  mach: number | null;
+  /** The pressure coefficient at which flow is as fast as sound; null without a Mach number. */
+  critical_cp: number | null;
+  /** Whether it solves the Euler equations; else it is potential flow, with pressures after Karman and Tsien. */
+  compressible: boolean;
+  elements: WallPressures[];
+}
+
 export interface Facts {
   /** The reference chord, in units of the input. */
   chord: number;
@@ -123,6 +146,8 @@ export interface Facts {
   isotropic: Quality;
   /** Null where the cells are straight. */
   curved: Curving | null;
+  /** Null where no flow decided: without a Reynolds number, and where it could not be solved. */
+  flow: FlowFacts | null;
   /** The time that the mesh took. */
   seconds: number;
 }

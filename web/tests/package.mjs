@@ -145,6 +145,34 @@ test("curved cells are written as such, or refused", async () => {
   for (const made of [straight, curved]) made.delete();
 });
 
+test("the flow that decided tells its pressures", async () => {
+  const flowOf = async (inputs, options) => {
+    const made = await mesh(inputs, {layer_topology: "quads", ...options});
+    made.delete();
+    return made.facts.flow;
+  };
+  assert.equal(await flowOf("naca:0012", {}), null);
+  const slow = await flowOf("naca:2412", {reynolds: 3e6, alpha: 4}),
+    [{name, points, cp}] = slow.elements,
+    nose = cp.indexOf(Math.max(...cp));
+  assert.deepEqual([name, slow.mach, slow.critical_cp, slow.compressible], ["airfoil", null, null, false]);
+  assert(slow.lift > 0.6 && slow.lift < 0.8, `lift ${slow.lift}`);
+  assert.equal(points.length, 2 * cp.length);
+  assert(Math.abs(cp[nose] - 1) < 1e-6 && points[2 * nose] < 0.05);
+  for (const end of [0, cp.length - 1]) assert(Math.abs(points[2 * end] - 1) < 1e-6);
+  // The upper side comes first: with lift its pressures are lower.
+  assert(Math.min(...cp.slice(0, nose)) < Math.min(...cp.slice(nose)));
+  // Karman and Tsien raise suction by more than 1 / sqrt(1 - Mach^2).
+  const faster = await flowOf("naca:2412", {reynolds: 3e6, alpha: 4, mach: 0.3}),
+    ratio = Math.min(...faster.elements[0].cp) / Math.min(...cp);
+  assert(ratio > 1 / Math.sqrt(0.91) && ratio < 1.3, `ratio ${ratio}`);
+  assert(Math.abs(faster.critical_cp - -6.95) < 0.05, `cp* ${faster.critical_cp}`);
+  const shock = await flowOf("naca:0012", {reynolds: 6.5e6, alpha: 1.25, mach: 0.8});
+  assert(shock.compressible);
+  assert(Math.abs(shock.critical_cp - -0.435) < 0.002, `cp* ${shock.critical_cp}`);
+  assert(Math.min(...shock.elements[0].cp) < 2 * shock.critical_cp);
+});
+
 test("memory is given back", async () => {
   for (let i = 0; i < 40; ++i) (await mesh("naca:0012", {far_field: 5})).delete();
 });

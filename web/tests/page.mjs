@@ -273,6 +273,41 @@ try {
   await after(() => page.click('#downloads button:text-is("SU2")'), "failed");
   assert.match(await page.textContent("#error"), /curved/);
   await picture("curved");
+  // Pressures beside the mesh: none without a Reynolds number, a curve for each element, cp* where flow is that fast. The
+  // chart and the mesh show the same point.
+  const curves = page.locator("#pressures path.curve"),
+    told = () => page.textContent("#pressures p");
+  await after(() => page.selectOption("#examples", "NACA 0012, inviscid"));
+  assert.equal(await curves.count(), 0);
+  assert.match(await told(), /Reynolds/);
+  await after(() => page.selectOption("#examples", "CRM-HL with slat and flap"));
+  assert.equal(await curves.count(), 3);
+  assert.equal(new Set(await curves.evaluateAll((all) => all.map((one) => one.getAttribute("stroke")))).size, 3);
+  await picture("pressures-three-elements");
+  await after(() => page.selectOption("#examples", "RAE 2822, transonic: finer at the shock"));
+  assert.match(await told(), /^Euler equations at 2.31 degrees, Mach 0.729: lift coefficient 0\.[78]/);
+  assert.equal(await page.locator("#pressures .critical").count(), 1);
+  const chartBox = await page.locator("#pressures svg").boundingBox(),
+    unhovered = await canvasShot();
+  await page.mouse.move(chartBox.x + 0.4 * chartBox.width, chartBox.y + 0.12 * chartBox.height);
+  assert.match(await told(), /^airfoil at \(0\.\d+, 0\.\d+\): cp -1\.\d+$/);
+  assert(await page.locator("#pressures .dot-of-curve").isVisible());
+  await settle();
+  assert.notEqual(await canvasShot(), unhovered, "the mesh does not show the point");
+  await picture("pressures");
+  await page.mouse.move(chartBox.x, chartBox.y - 80);
+  assert.match(await told(), /^Euler/);
+  // At the nose of the section the pointer is near to the wall, too.
+  const nose = await page.evaluate(() => {
+    lamina.picture.show([-0.1, -0.1, 0.1, 0.1], false);
+    return lamina.picture.state();
+  });
+  const stage = await page.locator("#view").boundingBox();
+  await page.mouse.move(
+    stage.x + 0.5 * nose.width + nose.scale * (0 - nose.x),
+    stage.y + 0.5 * nose.height - nose.scale * (0 - nose.y),
+  );
+  assert.match(await told(), /^airfoil at \(/);
   // Help at each field.
   const fields = page.locator("#form .option"),
     help = page.locator("#main-options [data-key=reynolds]");
