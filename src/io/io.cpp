@@ -95,7 +95,7 @@ void check_writable(const fs::path& file, const WriteOptions& options) {
 
 void require_streamable(const fs::path& file, const WriteOptions& options) {
     const FormatRow& format = format_of(file, options);
-    if (options.span > 0) throw UsageError("a mesh with a span is written as a whole: leave --stream out");
+    if (options.span > 0) throw UsageError("a mesh with a span is written as a whole: leave --stream or mpirun out");
     if (format.layout != nullptr) return;
     std::string names;
     for (const FormatRow& row : format_table())

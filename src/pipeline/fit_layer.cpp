@@ -95,9 +95,10 @@ double largest_outer_edge(std::span<const OuterWallFacts> walls, const LayerRequ
     return largest;
 }
 
-/// Makes rays on walls, within their far field.
+/// Makes rays on walls, within their far field. `ends`: LineGraph::ends of coarser walls.
 FittedLayer grow_within(const DomainRequest& domain, const LayerRequest& layer, const OuterWallSizes& sizes,
-                        surface::PreparedSurfaces prepared, const ReferenceConditions& conditions) {
+                        surface::PreparedSurfaces prepared, const ReferenceConditions& conditions,
+                        std::span<const EndsOnWalls> ends) {
     const layers::LayerGrowth& growth = layer.growth;
     Geometry geometry = std::move(prepared.geometry);
     const auto curves = std::make_shared<const surface::WallCurves>(std::move(prepared.curves));
@@ -105,7 +106,7 @@ FittedLayer grow_within(const DomainRequest& domain, const LayerRequest& layer, 
         decoupling::place_far_field(bounding_box(geometry), conditions.chord, domain.far_field);
     std::vector<OuterWallFacts> outer_walls =
         outer_wall_facts(far_field, domain.far_field, geometry, layer.options, conditions, growth);
-    LineGraph lines = arrange_lines(domain.lines, far_field, geometry);
+    LineGraph lines = arrange_lines(domain.lines, far_field, geometry, ends);
     std::vector<layers::OuterWall> divided;
     if (!outer_walls.empty())
         divided = divide_outer_walls(
@@ -123,10 +124,8 @@ FittedLayer grow_within(const DomainRequest& domain, const LayerRequest& layer, 
     };
     // Above the layer at their feet, which is known once rays have grown, lines are in the way.
     AtEnds at_feet(lines.pieces.size());
-    if (layer.options.enabled) {
-        at_feet = room_at_feet(lines);
-        if (!lines.pieces.empty()) at_feet = heights_at_feet(lines, grow_past_lines(at_feet));
-    }
+    if (layer.options.enabled && !lines.pieces.empty())
+        at_feet = heights_at_feet(lines, grow_past_lines(room_at_feet(lines)));
     layers::Rays rays = grow_past_lines(at_feet);
     if (layer.options.enabled && !geometry.pitch)
         require_room_for_layers(geometry, layers::fronts(rays), far_field, layer.options, growth);
@@ -320,8 +319,10 @@ FittedLayer fit_layer(PreparedWalls walls, const LayerRequest& layer, const Doma
                       const OuterSizes& sizes, const ReferenceConditions& conditions) {
     const LayerOptions& options = layer.options;
     OuterWallSizes on_outer_walls{sizes.options, walls.limits.gradation};
+    std::vector<EndsOnWalls> ends;
     const auto grow = [&](surface::PreparedSurfaces prepared) {
-        FittedLayer fitted = grow_within(domain, layer, on_outer_walls, std::move(prepared), conditions);
+        FittedLayer fitted = grow_within(domain, layer, on_outer_walls, std::move(prepared), conditions, ends);
+        ends = fitted.lines.ends;
         fitted.sizes = sizes;
         request_sizes(fitted);
         return fitted;

@@ -119,10 +119,9 @@ bool is_inside_body(const Geometry& geometry, Point p) {
     });
 }
 
-/// Returns the point of a wall that an end of a line near it is moved to.
-Point attached(Point end, const Geometry& geometry, std::span<const WallEdge> walls) {
-    constexpr double reach = 0.5;  // of the edge
-    if (is_inside_body(geometry, end)) return end;
+/// Returns the point of a wall that an end of a line outside the bodies is moved to, which is near it or known to be on walls.
+Point attached(Point end, bool is_known, const Geometry& geometry, std::span<const WallEdge> walls) {
+    const double reach = is_known ? HUGE_VAL : 0.5;  // of the edge
     double nearest = HUGE_VAL;
     Point result = end;
     for (const WallEdge& wall : walls) {
@@ -223,6 +222,7 @@ struct Arrangement {
     std::size_t borders = 0;          ///< number of the next ones
     std::vector<std::uint32_t> line;  ///< of the other segments
     ConstrainedTriangulation cells;
+    std::vector<EndsOnWalls> ends;  ///< LineGraph::ends
 
     bool is_of_line(std::size_t segment) const { return cells.parents[segment] >= walls.size() + borders; }
     std::uint32_t line_of(std::size_t segment) const { return line[cells.parents[segment] - walls.size() - borders]; }
@@ -252,7 +252,8 @@ void straighten_borders(const Strip& strip, Arrangement& result) {
     }
 }
 
-Arrangement arrange(std::span<const InternalLine> lines, const Strip& strip, const Geometry& geometry) {
+Arrangement arrange(std::span<const InternalLine> lines, const Strip& strip, const Geometry& geometry,
+                    std::span<const EndsOnWalls> known) {
     Arrangement result;
     result.walls = wall_edges(geometry);
     std::vector<Segment> segments;
@@ -266,12 +267,21 @@ Arrangement arrange(std::span<const InternalLine> lines, const Strip& strip, con
         std::vector<Point> points = lines[k].points;
         // Free ends are no double vertices, so a wall without thickness needs one between them.
         if (lines[k].two_sided && points.size() == 2) points.insert(points.begin() + 1, midpoint(points[0], points[1]));
+        EndsOnWalls ends{};
         if (points.front() != points.back()) {
             const std::array before{distance(points[0], points[1]), distance(points.end()[-1], points.end()[-2])};
             points.front().y = strip.snapped(points.front().y, geometry::typed_rounding * before[0]);
             points.back().y = strip.snapped(points.back().y, geometry::typed_rounding * before[1]);
-            for (Point* end : {&points.front(), &points.back()}) *end = attached(*end, geometry, result.walls);
+            for (const bool is_last : {false, true}) {
+                Point& end = is_last ? points.back() : points.front();
+                ends[is_last] = !known.empty() && known[k][is_last];
+                const bool is_inside = is_inside_body(geometry, end);
+                const Point on_wall = is_inside ? end : attached(end, ends[is_last], geometry, result.walls);
+                ends[is_last] |= is_inside || on_wall != end;
+                end = on_wall;
+            }
         }
+        result.ends.push_back(ends);
         result.points.insert(result.points.end(), points.begin(), points.end());
         for (std::size_t i = result.points.size() - points.size(); i + 1 < result.points.size(); ++i) {
             segments.push_back({VertexId(i), VertexId(i + 1)});
@@ -399,12 +409,12 @@ LineGraph number_pieces(const Arrangement& arrangement, std::span<const std::siz
 
 }  // namespace
 
-LineGraph arrange_lines(std::span<const InternalLine> lines, const decoupling::FarField& far_field,
-                        Geometry& geometry) {
+LineGraph arrange_lines(std::span<const InternalLine> lines, const decoupling::FarField& far_field, Geometry& geometry,
+                        std::span<const EndsOnWalls> known) {
     if (lines.empty()) return {};
     const Strip strip = strip_of(far_field);
     require_place_for_lines(lines, strip);
-    const Arrangement arrangement = arrange(lines, strip, geometry);
+    const Arrangement arrangement = arrange(lines, strip, geometry, known);
     const std::vector<std::size_t> pieces = pieces_in_flow(arrangement, strip, geometry);
     std::vector<char> used(arrangement.points.size());
     for (const std::size_t i : pieces)
@@ -423,6 +433,7 @@ LineGraph arrange_lines(std::span<const InternalLine> lines, const decoupling::F
     }
     LineGraph graph = number_pieces(arrangement, pieces, moved, on_wall, strip);
     graph.given.assign(lines.begin(), lines.end());
+    graph.ends = arrangement.ends;
     require_connected_domain(graph, geometry);
     return graph;
 }

@@ -25,6 +25,9 @@ std::string line_text(const InternalLine& line);
 /// two-sided ones that are closed.
 void validate_lines(std::span<const InternalLine> lines);
 
+/// Whether the first and the last point of a line are on walls of bodies.
+using EndsOnWalls = std::array<bool, 2>;
+
 /// The lines outside the bodies, cut where they cross each other.
 struct LineGraph {
     std::vector<InternalLine> given;  ///< the lines as they were asked for
@@ -33,13 +36,16 @@ struct LineGraph {
     std::vector<char> on_border;      ///< per vertex: whether it is on a wall of the domain or its line of symmetry
     std::vector<Segment> pieces;      ///< straight, between vertices, in the order of the lines
     std::vector<std::uint32_t> line;  ///< per piece: its line, one of those given
+    std::vector<EndsOnWalls> ends{};  ///< of the lines that were given
 };
 
 /// Cuts lines where they cross each other, the bodies, walls of the domain and its line of symmetry, and leaves out what
 /// lies behind these. A crossing with a wall of a body becomes a vertex of the wall; one that is nearer to a vertex than
-/// three tenths of the edge becomes that vertex. So does an end of a line that is nearer to a wall than half its edge. Bodies
-/// that a line of symmetry cuts stay mirrored. Throws OptionError for a line outside the far field.
-LineGraph arrange_lines(std::span<const InternalLine> lines, const decoupling::FarField& far_field, Geometry& geometry);
+/// three tenths of the edge becomes that vertex. So does an end of a line that is nearer to a wall than half its edge, or that
+/// was so on coarser walls, as `known` says if it is not empty. Bodies that a line of symmetry cuts stay mirrored. Throws
+/// OptionError for a line outside the far field.
+LineGraph arrange_lines(std::span<const InternalLine> lines, const decoupling::FarField& far_field, Geometry& geometry,
+                        std::span<const EndsOnWalls> known = {});
 
 /// Returns sizes at the vertices of lines: their distances from other lines that they are no part of, and from copies that
 /// are so far along y.

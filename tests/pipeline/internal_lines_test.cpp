@@ -12,6 +12,7 @@
 #include <lamina/error.hpp>
 #include <lamina/io.hpp>
 #include <lamina/pipeline.hpp>
+#include <lamina/presets.hpp>
 #include <lamina/stream.hpp>
 
 #include "support/sample_meshes.hpp"
@@ -172,6 +173,26 @@ TEST(InternalLines, SeveralAtOneVertexOfAWallHaveRaysOfTheirOwn) {
                 }
             }
         }
+}
+
+/// Walls become finer beside lines that lean, and half of their edges shorter than the way to an end.
+TEST(InternalLines, StayOnWallsThatBecomeFiner) {
+    const Point at{0.40398952666429994, 0.05787444763447987};
+    CaseOptions options = preset_options("rans", true);
+    options.far_field.size = 10;
+    options.lines = {{.name = "first", .points = {at, {0.14357199983608138, 0.23523009269309453}}},
+                     {.name = "second", .points = {at, {0.09506667364432747, 0.1724294619541118}}}};
+    options.layer.first_height = Length{1e-4};
+    options.conditions = {.alpha_deg = 4, .reynolds = 1e6};
+    const MeshResult result = generate_mesh({"naca:0012"}, options);
+    EXPECT_TRUE(check_mesh(result.mesh).valid());
+    const Marker* first = marker_of(result.mesh, "first");
+    ASSERT_NE(first, nullptr);
+    const Marker* wall = marker_of(result.mesh, "airfoil");
+    EXPECT_TRUE(std::any_of(wall->edges.begin(), wall->edges.end(), [&](const Segment& edge) {
+        return std::any_of(first->edges.begin(), first->edges.end(),
+                           [&](const Segment& s) { return s.a == edge.a || s.b == edge.a; });
+    }));
 }
 
 TEST(InternalLines, EndOnWallsOfTheDomain) {
