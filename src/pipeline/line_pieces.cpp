@@ -231,6 +231,32 @@ bool meets_border(const PlacedSegment& line, const PlacedSegment& edge) {
 
 }  // namespace
 
+namespace {
+
+/// Returns the vertices along a ray, from the wall to the front. Beside a ray of the same origin without layers the border
+/// runs along the lowest piece, which it may divide.
+std::vector<VertexId> vertices_along(const layers::Layer& layer, std::size_t element, std::size_t i) {
+    const std::vector<layers::Ray>& rays = layer.rays[element];
+    const std::vector<VertexId>& border = layer.borders[element];
+    const layers::Ray& ray = rays[i];
+    std::vector<VertexId> vertices;
+    for (std::uint32_t n = 0; n <= ray.layers; ++n) vertices.push_back(ray.vertex(n));
+    const std::size_t n = rays.size(), length = border.size();
+    for (const bool is_after : {false, true}) {
+        const layers::Ray& beside = rays[(i + (is_after ? 1 : n - 1)) % n];
+        if (ray.layers != 1 || beside.layers > 0 || beside.origin != ray.origin) continue;
+        auto at = static_cast<std::size_t>(std::find(border.begin(), border.end(), ray.tip()) - border.begin());
+        for (std::size_t k = 0; k < length && border[at % length] != ray.origin; ++k) {
+            if (k > 0) vertices.insert(vertices.begin() + 1, border[at % length]);
+            at = at % length + (is_after ? 1 : length - 1);
+        }
+        break;
+    }
+    return vertices;
+}
+
+}  // namespace
+
 FeetInLayer feet_in_layer(const LineGraph& graph, const layers::Layer& layer) {
     FeetInLayer feet(graph.pieces.size());
     AtFeet<std::vector<VertexId>*> at;
@@ -241,12 +267,12 @@ FeetInLayer feet_in_layer(const LineGraph& graph, const layers::Layer& layer) {
                 at.emplace(PlaceAndDirection{graph.points[v], direction_from(graph, graph.pieces[i], end)},
                            &feet[i][end]);
     if (at.empty()) return feet;
-    for (const std::vector<layers::Ray>& rays : layer.rays)
-        for (const layers::Ray& ray : rays) {
+    for (std::size_t e = 0; e < layer.rays.size(); ++e)
+        for (std::size_t i = 0; i < layer.rays[e].size(); ++i) {
+            const layers::Ray& ray = layer.rays[e][i];
             if (!ray.along_line) continue;
             const auto found = at.find({layer.points[ray.origin.index()], ray.direction});
-            if (found == at.end()) continue;
-            for (std::uint32_t n = 0; n <= ray.layers; ++n) found->second->push_back(ray.vertex(n));
+            if (found != at.end()) *found->second = vertices_along(layer, e, i);
         }
     return feet;
 }
