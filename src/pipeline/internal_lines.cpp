@@ -380,6 +380,21 @@ std::vector<std::size_t> pieces_in_flow(const Arrangement& arrangement, const St
     return pieces;
 }
 
+/// Drops the pieces that are edges of walls, as those become that run from one vertex of a wall to the next.
+void drop_wall_edges(const Arrangement& arrangement, std::span<const std::size_t> moved, const Geometry& geometry,
+                     std::vector<std::size_t>& pieces) {
+    std::map<Point, std::pair<Point, Point>, core::LexicographicOrder> beside;
+    for (const Element& element : geometry.elements)
+        for (std::size_t i = 0, n = element.points.size(); i < n; ++i)
+            beside[element.points[i]] = {element.points[(i + n - 1) % n], element.points[(i + 1) % n]};
+    std::erase_if(pieces, [&](std::size_t i) {
+        const Segment& piece = arrangement.cells.segments[i];
+        const Point b = arrangement.points[moved[piece.b.index()]];
+        const auto found = beside.find(arrangement.points[moved[piece.a.index()]]);
+        return found != beside.end() && (found->second.first == b || found->second.second == b);
+    });
+}
+
 /// Numbers the vertices of pieces, `moved` to where they have settled, in the order in which pieces have them.
 LineGraph number_pieces(const Arrangement& arrangement, std::span<const std::size_t> pieces,
                         std::span<const std::size_t> moved, const std::set<Point, core::LexicographicOrder>& on_wall,
@@ -415,7 +430,7 @@ LineGraph arrange_lines(std::span<const InternalLine> lines, const decoupling::F
     const Strip strip = strip_of(far_field);
     require_place_for_lines(lines, strip);
     const Arrangement arrangement = arrange(lines, strip, geometry, known);
-    const std::vector<std::size_t> pieces = pieces_in_flow(arrangement, strip, geometry);
+    std::vector<std::size_t> pieces = pieces_in_flow(arrangement, strip, geometry);
     std::vector<char> used(arrangement.points.size());
     for (const std::size_t i : pieces)
         for (const VertexId v : {arrangement.cells.segments[i].a, arrangement.cells.segments[i].b}) used[v.index()] = 1;
@@ -431,6 +446,7 @@ LineGraph arrange_lines(std::span<const InternalLine> lines, const decoupling::F
         if (geometry.elements[e].is_mirrored) add_images(geometry.elements[e], *geometry.symmetry, inserted[e]);
         insert_vertices(inserted[e], geometry.elements[e]);
     }
+    drop_wall_edges(arrangement, moved, geometry, pieces);
     LineGraph graph = number_pieces(arrangement, pieces, moved, on_wall, strip);
     graph.given.assign(lines.begin(), lines.end());
     graph.ends = arrangement.ends;

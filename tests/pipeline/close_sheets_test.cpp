@@ -166,6 +166,18 @@ TEST(CloseSheets, LinesMayMeetThem) {
         }
 }
 
+/// The line ends on the wall beside the strip, and would run along the wall to the strip's foot.
+TEST(CloseSheets, LinesMayEndBesideFeet) {
+    CaseOptions options = options_with_sheets(
+        {{"strip", {{0.9252275846351461, 0.009329335542654249}, {0.9218397828242526, 0.20064228780204424}}}});
+    options.lines = {
+        {.name = "rake",
+         .points = {{0.9252275846351461, 0.010365928380726943}, {0.8535747465129407, 0.057511233455572235}}}};
+    const MeshResult result = generate_mesh({"naca:0012"}, options);
+    expect_closed(result, "strip");
+    EXPECT_NE(marker_of(result.mesh, "rake"), nullptr);
+}
+
 TEST(CloseSheets, RefusalsSayWhy) {
     CaseOptions options = options_with_sheets({{"plate", {{0, 0}, {1, 0}}}});
     EXPECT_THROW(stream_mesh({}, options, [] { return std::unique_ptr<MeshSink>(); }), OptionError);
