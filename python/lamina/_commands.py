@@ -190,7 +190,7 @@ class Polar(Values):
         of_all = ("name", "reynolds", "mach", "undisplaced")
         columns = {f.name: getattr(self, f.name) for f in fields(self) if f.name not in of_all}
         try:
-            import pandas  # type: ignore[import-untyped, unused-ignore]
+            import pandas  # type: ignore[import-not-found, import-untyped, unused-ignore]
         except ImportError:
             return columns
         return pandas.DataFrame(columns)

@@ -32,7 +32,7 @@ def _points_3d(mesh: Mesh) -> np.ndarray:
 def to_meshio(mesh: Mesh) -> Any:
     """Mesh.to_meshio()."""
     with packages_of("meshio"):
-        import meshio  # type: ignore[import-untyped]
+        import meshio  # type: ignore[import-not-found, import-untyped, unused-ignore]
 
     blocks = [("triangle", mesh.triangles), ("quad", mesh.quads)]
     cells = [(kind, np.asarray(block, dtype=np.int64)) for kind, block in blocks if len(block)]
@@ -53,7 +53,7 @@ def to_meshio(mesh: Mesh) -> Any:
 def to_pyvista(mesh: Mesh) -> Any:
     """Mesh.to_pyvista()."""
     with packages_of("pyvista"):
-        import pyvista
+        import pyvista  # type: ignore[import-not-found, unused-ignore]
 
     blocks = {pyvista.CellType.TRIANGLE: mesh.triangles, pyvista.CellType.QUAD: mesh.quads}
     grid = pyvista.UnstructuredGrid({kind: block for kind, block in blocks.items() if len(block)}, _points_3d(mesh))
@@ -73,8 +73,8 @@ def _edge_lengths(mesh: Mesh) -> np.ndarray:
 def to_pyg(mesh: Mesh) -> Any:
     """Mesh.to_pyg()."""
     with packages_of("graphs"):
-        import torch  # type: ignore[import-not-found, unused-ignore]
-        from torch_geometric.data import Data  # type: ignore[import-not-found, unused-ignore]
+        import torch  # type: ignore[import-not-found, import-untyped, unused-ignore]
+        from torch_geometric.data import Data  # type: ignore[import-not-found, import-untyped, unused-ignore]
 
     index = mesh.edge_index(both_directions=True)
     step = mesh.points[index[1]] - mesh.points[index[0]]
@@ -88,7 +88,7 @@ def to_pyg(mesh: Mesh) -> Any:
 def to_networkx(mesh: Mesh) -> Any:
     """Mesh.to_networkx()."""
     with packages_of("networkx"):
-        import networkx  # type: ignore[import-untyped, unused-ignore]
+        import networkx  # type: ignore[import-not-found, import-untyped, unused-ignore]
 
     graph = networkx.Graph()
     graph.add_nodes_from(range(len(mesh.points)))
@@ -110,7 +110,7 @@ def _face_nodes(mesh: Mesh) -> np.ndarray:
 def to_xarray(mesh: Mesh) -> Any:
     """Mesh.to_xarray(). UGRID: https://ugrid-conventions.github.io/ugrid-conventions, "2D flexible mesh topology"."""
     with packages_of("xarray"):
-        import xarray
+        import xarray  # type: ignore[import-not-found, unused-ignore]
 
     topology = {"cf_role": "mesh_topology", "topology_dimension": 2, "node_coordinates": "x y",
                 "face_node_connectivity": "face_nodes", "edge_node_connectivity": "edge_nodes",

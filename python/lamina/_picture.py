@@ -22,7 +22,7 @@ def _axes(ax: Any) -> Any:
     if ax is not None:
         return ax
     with packages_of("plot"):
-        import matplotlib.pyplot as plt
+        import matplotlib.pyplot as plt  # type: ignore[import-not-found, unused-ignore]
 
     return plt.subplots()[1]
 
@@ -69,7 +69,7 @@ def _edges_of(cells: np.ndarray) -> np.ndarray:
 
 
 def _add_lines(ax: Any, points: np.ndarray, edges: np.ndarray, style: dict[str, Any]) -> None:
-    from matplotlib.collections import LineCollection
+    from matplotlib.collections import LineCollection  # type: ignore[import-not-found, unused-ignore]
 
     ax.add_collection(LineCollection(points[edges], **style), autolim=False)
 
@@ -77,7 +77,7 @@ def _add_lines(ax: Any, points: np.ndarray, edges: np.ndarray, style: dict[str, 
 def draw_mesh(mesh: Mesh, ax: Any, window: Any, color: str, style: dict[str, Any]) -> Any:
     """Draws a mesh: Mesh.plot()."""
     with packages_of("plot"):
-        from matplotlib.collections import PolyCollection
+        from matplotlib.collections import PolyCollection  # type: ignore[import-not-found, unused-ignore]
 
     if color not in ("none", "quality", "size", "piece", "layer"):
         raise ValueError(f"color: '{color}' is none of none, quality, size, piece, layer")
@@ -125,8 +125,8 @@ def draw_triangles(triangulation: Triangulation, ax: Any, style: dict[str, Any])
 def picture_html(mesh: Mesh) -> str:
     """Returns the picture of a mesh as HTML; empty where matplotlib is not installed."""
     try:
-        from matplotlib.backends.backend_agg import FigureCanvasAgg
-        from matplotlib.figure import Figure
+        from matplotlib.backends.backend_agg import FigureCanvasAgg  # type: ignore[import-not-found, unused-ignore]
+        from matplotlib.figure import Figure  # type: ignore[import-not-found, unused-ignore]
     except ImportError:
         return ""
     figure = Figure(figsize=(8, 4), dpi=120, layout="tight")

@@ -48,7 +48,7 @@ def _print_stage(stage: str, estimate: RunEstimate | None) -> None:
 def _tqdm() -> Any:
     """Returns the class of bars; None where tqdm is not installed."""
     try:
-        from tqdm.auto import tqdm  # type: ignore[import-untyped, unused-ignore]
+        from tqdm.auto import tqdm  # type: ignore[import-not-found, import-untyped, unused-ignore]
     except ImportError:
         return None
     return tqdm
