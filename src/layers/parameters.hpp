@@ -3,7 +3,6 @@
 // Tolerances of rounding and numbers of steps stand where they are used.
 #pragma once
 
-#include <cstddef>
 #include <numbers>
 
 namespace lamina::layers {
@@ -142,9 +141,6 @@ inline constexpr double min_gap_share = 1.0 / 128;
 /// Targets are constant on intervals of an edge that are this share of the target long.
 inline constexpr double interval_share = 0.5;
 
-/// Edges are divided for the sake of the ratio into at most this many times the parts that the target needs.
-inline constexpr std::size_t max_refinement = 6;
-
 /// The top of a cell of the grid stays whole up to this many times its target: up to where its halves would be as much too
 /// short as it is too long. A point on the top of a flat cell makes an angle near 180 degrees, and halves of the tops of high
 /// ones are farther in area from the triangles beyond. Walls that are kept have no other way to become finer than their borders.
@@ -165,10 +161,6 @@ inline constexpr double wake_edge_ratio = 1.07, max_wake_edge_share = 0.015;
 /// From one vertex of a wake to the next the first height grows by this share. Rows of cells rise with it: by six times as
 /// much where layers end at isotropy, as a share of the edge's length.
 inline constexpr double wake_opening = 0.08;
-
-/// The first height along a wake whose layers go on beyond isotropy grows by this share over the length of their height, since
-/// rows rise much more there.
-inline constexpr double opening_per_height = 0.65;
 
 /// The first height opens until this many layers of equal height would fill the height that is needed.
 inline constexpr double layers_when_open = 12;

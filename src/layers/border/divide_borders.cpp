@@ -191,15 +191,12 @@ public:
             intervals_.push_back({distance, excess_, interval.target});
             distance += interval.length;
         }
-        needed_parts_ = excess_ <= whole_up_to ? 1 : static_cast<std::size_t>(std::ceil(excess_ / alike));
-        parts_ = needed_parts_;
+        if (excess_ > whole_up_to) parts_ = static_cast<std::size_t>(std::ceil(excess_ / alike));
     }
 
     /// Returns the length of the edge over the target length along it.
     double excess() const { return excess_; }
     bool divided() const { return parts_ > 1; }
-    /// Returns whether there may be another part for the sake of the ratio.
-    bool extensible() const { return parts_ < max_refinement * needed_parts_; }
     void add_part() { ++parts_; }
     /// Takes at least as many parts as another edge.
     void take_parts(const EdgeDivision& other) { parts_ = std::max(parts_, other.parts_); }
@@ -228,7 +225,7 @@ private:
 
     double length_, excess_ = 0;
     std::vector<Interval> intervals_;
-    std::size_t needed_parts_ = 1, parts_ = 1;
+    std::size_t parts_ = 1;
 
     /// Returns the distance of the end of part k, counted from 1, from the edge's start.
     double division_point(std::size_t k) const {
@@ -266,10 +263,10 @@ void sort_without_duplicates(std::vector<std::size_t>& indices) {
     indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
 }
 
-/// Adds parts until the lengths of the parts on both sides of each corner differ by no more than max_ratio, except where an
-/// edge may get no more parts. All corners are judged by one state and then changed together, so that the result depends
-/// neither on where a polygon starts nor on its direction. across: edges_back_to_back(), which have as many parts as each
-/// other.
+/// Adds parts until the lengths of the parts on both sides of each corner differ by no more than max_ratio: one part more
+/// makes those of an edge with many hardly shorter. All corners are judged by one state and then changed together, so that the
+/// result depends neither on where a polygon starts nor on its direction. across: edges_back_to_back(), which have as many parts
+/// as each other.
 void balance_divisions(std::span<const PolygonEdge> edges, std::span<const std::size_t> across, double max_ratio,
                        std::vector<EdgeDivision>& divisions) {
     constexpr double rounding = 1e-9;
@@ -292,7 +289,6 @@ void balance_divisions(std::span<const PolygonEdge> edges, std::span<const std::
             judge(i, edges[i].next);
         }
         sort_without_duplicates(longer);
-        std::erase_if(longer, [&](std::size_t i) { return !divisions[i].extensible(); });
         active.clear();
         for (const std::size_t i : longer) {
             divisions[i].add_part();

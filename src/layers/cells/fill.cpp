@@ -341,7 +341,7 @@ CellColumns::CellColumns(const Layer& layer, std::size_t element)
 
 CellColumn CellColumns::operator[](std::size_t i) const {
     const std::size_t n = rays_.size(), before = (i + n - 1) % n, second = (i + 1) % n, after = (i + 2) % n;
-    CellColumn column{rays_[i], rays_[second], border_between_tips(i), {}, {}, rays_[before], rays_[after]};
+    CellColumn column{rays_[i], rays_[second], border_between_tips(i), {}, {}};
     if (border_runs_along(before, i)) column.up = border_between_tips(before);
     if (border_runs_along(after, second)) column.down = border_between_tips(second);
     return column;

@@ -23,7 +23,6 @@ struct CellColumn {
     /// border does so where the column on the other side of the ray is empty and the ray has one layer; elsewhere the
     /// stretch is empty.
     std::span<const VertexId> up, down;
-    const Ray &before, &after;  ///< the rays beyond `first` and `second`
 };
 
 /// The columns of one element.

@@ -219,7 +219,7 @@ public:
     void append_to(std::vector<double>& table, std::vector<HeightColumn>& columns) && {
         const std::vector<std::uint32_t> asked_layers = count_asked_layers();
         for (std::size_t i = 0; i < layers_.size(); ++i) {
-            const bool whole = growth_.layers && !is_cut(i) && layers_[i] == layer_count(heights_[i]);
+            const bool whole = keeps_law(i) && layers_[i] == layer_count(heights_[i]);
             const Stretch stretch = whole ? Stretch{} : stretch_of_layers(front_[i], heights_[i], layers_[i]);
             heights_[i].resize(layers_[i] + std::size_t{1});
             stretch_heights(stretch, heights_[i]);
@@ -239,6 +239,8 @@ private:
     std::vector<std::uint32_t> layers_;
 
     bool is_cut(std::size_t ray) const { return front_[ray] < asked_[ray]; }
+    /// Returns whether a column keeps a requested number of layers, which nothing cuts short.
+    bool keeps_law(std::size_t ray) const { return growth_.layers && !is_cut(ray); }
 
     /// Returns the largest spacings on the way to these ends.
     std::vector<double> spacings_up_to(std::span<const double> ends) const {
@@ -262,17 +264,15 @@ private:
         heights_.resize(front_.size());
         core::parallel_for(front_.size(), 256, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i)
-                heights_[i] = heights_beyond(growth_.layers ? HUGE_VAL : fronts * front_[i], i, max_spacings_[i]);
+                heights_[i] = heights_beyond(std::max(fronts * front_[i], asked_[i]), i, max_spacings_[i]);
         });
     }
 
-    /// Returns the end of a column. A requested number of layers that nothing cuts short stays.
     ColumnEnd end_of(std::size_t ray) const {
         const double front = front_[ray];
         const std::span<const double> heights = heights_[ray];
-        const bool stays = growth_.layers && !is_cut(ray);
-        const std::uint32_t n = stays ? layer_count(heights) : layers_up_to(front, heights);
-        const LayerRange range = stays ? LayerRange{n, n} : layer_range(front, heights, n);
+        const std::uint32_t n = keeps_law(ray) ? layer_count(heights) : layers_up_to(front, heights);
+        const LayerRange range = keeps_law(ray) ? LayerRange{n, n} : layer_range(front, heights, n);
         return {front, stretched_last_spacing(front, heights, n), n, range};
     }
 

@@ -80,7 +80,7 @@ public:
             left.at = chain.back();
             right.at = chain.front();
             const double length = distance(std::exchange(from, right.at), right.at);
-            add(left, right, std::min(distance_ + length, depth), length);
+            add(left, right, std::min(distance_ + length, depth));
         }
         distance_ = depth;
     }
@@ -92,7 +92,8 @@ public:
             edge = std::min(edge, longest);
             const std::vector<double> wedge = distances_to_end(edge);
             if (distance_ + edge + wedge.front() > end_) return end_wake(wedge, edge);
-            add_on_line(distance_ + edge, edge);
+            const WakePoint point = line_.at(distance_ + edge);
+            add(point, point, distance_ + edge);
             edge *= wake_edge_ratio;
         }
     }
@@ -104,18 +105,13 @@ private:
     DividedWake& wake_;
     double distance_ = 0, opening_ = 1;  ///< of the last vertex
 
-    void add(const WakePoint& left, const WakePoint& right, double at, double edge) {
-        const double opened =
-            (1 + std::min(wake_opening, opening_per_height * edge / std::max(left.left, right.right))) * opening_;
+    void add(const WakePoint& left, const WakePoint& right, double at) {
+        const double opened = (1 + wake_opening) * opening_;
         const double widest = std::min(left.left, right.right) / (layers_when_open * growth_.first_height);
         opening_ = std::max(opening_, std::min(opened, widest));
         distance_ = at;
         wake_.vertices.push_back({left, right, opening_});
         wake_.distances.push_back(at);
-    }
-    void add_on_line(double at, double edge) {
-        const WakePoint point = line_.at(at);
-        add(point, point, at, edge);
     }
 
     /// Returns the distances from the end at which the wedge has its vertices, descending. Its first edges are about as
