@@ -271,7 +271,7 @@ void fit_first_layers(Rays& rays) {
 }
 
 /// Counts the layers. Where fronts meet, rays that are left without any get first layers half as high, so that no wall
-/// is bare.
+/// is bare: a safety net for slots narrower than first layers, which FirstHeights.AreLowerInSlotsWithoutRoom holds.
 void count_layers_on_all_rays(Rays& rays) {
     constexpr int max_rounds = 6;
     for (int round = 0;; ++round) {

@@ -240,7 +240,8 @@ bool has_crossed_cell(const LayeredRays& rays, std::size_t i, std::size_t j) {
 }
 
 /// Leaves the columns on both sides of crossed cells as they were: rows rise most where a column is narrower than at the
-/// front. Columns as they were have no such cells. Returns whether there were any.
+/// front. Columns as they were have no such cells. Returns whether there were any. It is a safety net for steep fronts, which
+/// EndSpacings.CrossesNoCells holds.
 bool leave_crossed_columns(const LayeredRays& rays, std::vector<double>& ratios) {
     const std::vector<std::size_t> next = rays.set.following();
     std::vector<std::size_t> crossed;
