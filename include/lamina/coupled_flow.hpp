@@ -4,14 +4,14 @@
 //  1. Layers and outer flow agree where CoupledFlow::converged; where they do not, the flow is that of solve_flow().
 //  2. The same input gives the same bits on any number of threads.
 // Limits:
-//  1. Incompressible flow outside of rows of blades. Behind stall, wakes are too narrow, and lift is too large. Layers do
+//  1. Incompressible flow of at most five elements outside of rows of blades. Behind stall, wakes are too narrow, and lift is too large. Layers do
 //     not merge in slots.
-//  2. One angle takes 20 ms for one element, 0.2 to 0.5 s for two, 1 to 3 s for three, and more where it is reached in
-//     steps from another angle.
+//  2. One angle takes 20 ms for one element, 0.2 to 0.5 s for two and more, and several times as long where it is reached
+//     in steps from another angle, or not found.
 // Example:
 //     const Geometry section = make_geometry({naca_airfoil("0012", 200)});
 //     const std::vector<FlowConditions> conditions{{.alpha_deg = 4, .reynolds = 1e6}};
-//     assert(can_be_coupled(reference_conditions(conditions[0], section)));
+//     assert(can_be_coupled(section, reference_conditions(conditions[0], section)));
 //     const CoupledFlow found = solve_coupled_flow(section, conditions).front();
 //     assert(found.converged && found.forces.lift > 0.41 && found.forces.lift < 0.45);
 //     assert(found.forces.drag > 0.006 && found.forces.drag < 0.008);
@@ -55,9 +55,10 @@ struct CoupledFlow {
     int steps = 0;                                ///< of Newton's method
 };
 
-/// Returns whether layers displace the flow: at Reynolds numbers at which they do not stay laminar throughout, 1e4 or
-/// more, and outside of rows of blades.
-LAMINA_EXPORT bool can_be_coupled(const ReferenceConditions& reference, const FlowWalls& walls = {});
+/// Returns whether layers displace the flow: of at most five elements outside of rows of blades, at Reynolds numbers at
+/// which layers do not stay laminar throughout, 1e4 or more.
+LAMINA_EXPORT bool can_be_coupled(const Geometry& geometry, const ReferenceConditions& reference,
+                                  const FlowWalls& walls = {});
 
 /// Returns the flow between walls at each of the conditions. Layers follow the equations of momentum, kinetic energy and
 /// lag of the shear stress, waves grow along the envelope of those of all frequencies, and wakes end one chord behind the

@@ -14,7 +14,7 @@ void require_default(const TransitionOptions& transition) {
     const char* name = transition.critical_exponent != usual.critical_exponent ? "ncrit"
                        : transition.trip                                       ? "trip"
                                                                                : "trip-lower";
-    if (transition != usual) throw OptionError(name, "needs a Reynolds number of 1e4 or more, and no row of blades");
+    if (transition != usual) throw OptionError(name, "needs a Reynolds number of 1e4 or more, at most five elements, and no row of blades");
 }
 
 /// Puts flows that were solved with their layers in the places of those that are not compressible.
@@ -61,7 +61,7 @@ std::vector<FoundFlow> find_flows(Geometry geometry, const CaseOptions& options,
     const ReferenceConditions reference = reference_conditions(options.conditions, geometry);
     const FlowWalls walls = flow_walls(geometry, options.conditions, options.far_field);
     const Geometry prepared = prepare_surfaces(geometry, options.surface, reference.chord);
-    const bool coupled = can_be_coupled(reference, walls);
+    const bool coupled = can_be_coupled(prepared, reference, walls);
     if (!coupled) require_default(transition);
     std::vector<FoundFlow> found;
     std::vector<FlowConditions> to_couple;

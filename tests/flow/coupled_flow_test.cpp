@@ -202,12 +202,18 @@ void expect_derivatives(const coupled::Station& a, const coupled::Station& b, F&
     }
 }
 
-TEST(CoupledFlow, IsForLayersThatBecomeTurbulentOutsideOfRows) {
-    EXPECT_TRUE(can_be_coupled({.reynolds = 1e4}));
-    EXPECT_FALSE(can_be_coupled({.reynolds = 9999}));
-    EXPECT_FALSE(can_be_coupled({}));
-    EXPECT_TRUE(can_be_coupled({.reynolds = 1e6}, {.below = -1, .above = 1}));
-    EXPECT_FALSE(can_be_coupled({.reynolds = 1e6}, {.pitch = 1}));
+TEST(CoupledFlow, IsForUpToFiveElementsOutsideOfRowsWhoseLayersBecomeTurbulent) {
+    Geometry bodies = section_of("0012");
+    EXPECT_TRUE(can_be_coupled(bodies, {.reynolds = 1e4}));
+    EXPECT_FALSE(can_be_coupled(bodies, {.reynolds = 9999}));
+    EXPECT_FALSE(can_be_coupled(bodies, {}));
+    EXPECT_TRUE(can_be_coupled(bodies, {.reynolds = 1e6}, {.below = -1, .above = 1}));
+    EXPECT_FALSE(can_be_coupled(bodies, {.reynolds = 1e6}, {.pitch = 1}));
+    const Element section = bodies.elements.front();
+    bodies.elements.assign(5, section);
+    EXPECT_TRUE(can_be_coupled(bodies, {.reynolds = 1e6}));
+    bodies.elements.push_back(section);
+    EXPECT_FALSE(can_be_coupled(bodies, {.reynolds = 1e6}));
 }
 
 TEST(CoupledFlow, SectionsFarFromEachOtherAreAsAlone) {

@@ -15,6 +15,8 @@ namespace {
 
 constexpr double wake_length = 1;        // behind all trailing edges, in chords
 constexpr std::size_t wake_places = 26;  // of a wake of this length that no other body is near
+/// Panels of a wake near walls need be no shorter than this share of it makes them.
+constexpr double least_panel_share = 0.01;
 /// Longest panel of a wake over the distance to other walls, as along walls, and to other wakes. Of eleven angles of CRM-HL and
 /// 30P-30N from 0 to 20 degrees all are found with 4, 10 with 2, and lift differs by 0.3 %. Without a bound on the distance to wakes
 /// 16 degrees fails, with 1 as many as three.
@@ -223,11 +225,12 @@ std::vector<Point> trace_wake(const PanelResponse& response, const Wakes& known,
     };
     const double first = 0.5 * (body.lengths.front() + body.lengths.back()),
                  ratio = growth_of_steps(first, wake_length, wake_places - 1),
-                 whole = wake_length + way_to_rear(response, own, flow.stream);
+                 whole = wake_length + way_to_rear(response, own, flow.stream),
+                 least = std::max(first, least_panel_share * whole);
     std::vector<Point> wake{midpoint(nodes.front(), nodes.back())};
     Point direction = leaving_direction(nodes);
     for (double step = first, s = 0; s + 0.5 * step < whole; step *= ratio) {
-        step = std::min(step, std::max(longest_panel(response, known, own, wake.back()), first));
+        step = std::min(step, std::max(longest_panel(response, known, own, wake.back()), least));
         if (wake.size() > 1) direction = direction_at(wake.back() + 0.5 * step * direction);
         wake.push_back(wake.back() + step * direction);
         s += step;
