@@ -14,7 +14,8 @@ void require_default(const TransitionOptions& transition) {
     const char* name = transition.critical_exponent != usual.critical_exponent ? "ncrit"
                        : transition.trip                                       ? "trip"
                                                                                : "trip-lower";
-    if (transition != usual) throw OptionError(name, "needs a Reynolds number of 1e4 or more, at most five elements, and no row of blades");
+    if (transition != usual)
+        throw OptionError(name, "needs a Reynolds number of 1e4 or more, at most five elements, and no row of blades");
 }
 
 /// Puts flows that were solved with their layers in the places of those that are not compressible.
