@@ -32,7 +32,7 @@ namespace lamina {
 /// The options that decide where layers become turbulent.
 struct TransitionOptions {
     double critical_exponent = 9;  ///< of the most amplified wave at which a layer becomes turbulent, N
-    /// The place where the layers are turbulent at the latest, as a share of the section's extent in x.
+    /// The place where the layers are turbulent at the latest, as a share of each element's extent in x.
     std::optional<double> trip{};
     std::optional<double> trip_lower{};                         ///< the same on the lower side; empty: `trip`
     bool operator==(const TransitionOptions&) const = default;  ///< whether all are equal

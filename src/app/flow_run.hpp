@@ -32,10 +32,10 @@ inline constexpr const char* undisplaced_line =
 /// Returns the bodies as one blade of a row, where the options ask for it.
 Geometry in_row(Geometry geometry, const CaseOptions& options);
 
-/// Solves compressible flow where it is faster than sound, else incompressible flow, whose pressures are those of compressible
-/// flow where there is a Mach number. Boundary layers displace the flow where they can
-/// (can_be_coupled(), solve_coupled_flow()). Throws OptionError for options out of range, and for those of transition where layers do
-/// not displace the flow.
+/// Solves compressible flow where it is faster than sound, else incompressible flow, whose pressures are those of
+/// compressible flow where there is a Mach number. Boundary layers displace the flow where they can (can_be_coupled(),
+/// solve_coupled_flow()). Throws OptionError for options out of range, and for those of transition where layers do not
+/// displace the flow.
 FoundFlow find_flow(Geometry geometry, const CaseOptions& options, const TransitionOptions& transition = {});
 /// Finds the flow at each of these conditions, of one chord, in their order.
 std::vector<FoundFlow> find_flows(Geometry geometry, const CaseOptions& options,

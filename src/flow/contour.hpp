@@ -26,8 +26,8 @@ struct ContourOptions {
 
 /// Returns the contours of all elements. The nodes lie on splines through the given points. Their spacing follows from
 /// the curvature, from the distance to corners and to other elements; it does not depend on that of the given points,
-/// and zigzags shorter than it do not reduce it. It grows where there would be too many panels. Sheets are thin sections, and
-/// those on walls are left out.
+/// and zigzags shorter than it do not reduce it. It grows where there would be too many panels. Sheets are thin
+/// sections, and those on walls are left out.
 std::vector<Contour> make_contours(const Geometry& given, const ContourOptions& options = {});
 
 }  // namespace lamina::flow

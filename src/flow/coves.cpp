@@ -11,13 +11,13 @@ namespace lamina::flow {
 
 namespace {
 
-/// Coves are deeper than this share of the section's extent, over which directions at corners are taken, too: the longest panel
-/// (contour.cpp).
+/// Coves are deeper than this share of the section's extent, over which directions at corners are taken, too: the
+/// longest panel (contour.cpp).
 constexpr double least_depth = 0.02;
 /// The wall turns away from the flow at the corner of a cove by more than this.
 constexpr double min_turning_deg = 30;
-/// Layers come back at this share of the cove's wall. Lift of 30P-30N and CRM-HL changes by 0.2 % between 0.8 and 0.95, and more
-/// flows are found with the latter.
+/// Layers come back at this share of the cove's wall. Lift of 30P-30N and CRM-HL changes by 0.2 % between 0.8 and 0.95,
+/// and more flows are found with the latter.
 constexpr double share_at_return = 0.95;
 constexpr int parts_of_curve = 16;
 
@@ -28,7 +28,8 @@ struct Side {
     double sign;  ///< 1 where its outer side is on the right
 
     std::size_t end() const { return points.size() - 1; }
-    /// Returns the point at a distance along the side from one of its points, on or back; an end of the side where it is shorter.
+    /// Returns the point at a distance along the side from one of its points, on or back; an end of the side where it
+    /// is shorter.
     Point at_distance(std::size_t from, double length, bool on) const {
         for (std::size_t i = from; i != (on ? end() : nose); on ? ++i : --i) {
             const std::size_t next = on ? i + 1 : i - 1;

@@ -27,8 +27,8 @@ struct PanelSheet {
     double base_source = 0;    ///< constant strength of the source sheet on the base, which feeds the wake
 };
 
-/// The sheets of all contours in the free stream (Flow::panels): with flow that leaves each trailing edge smoothly, and with flow that
-/// has no circulation round any of them.
+/// The sheets of all contours in the free stream (Flow::panels): with flow that leaves each trailing edge smoothly, and
+/// with flow that has no circulation round any of them.
 struct PanelSolution {
     std::vector<PanelSheet> sheets, without_lift;
     FlowWalls walls;  ///< in which the sheets have images
@@ -39,12 +39,13 @@ inline std::span<const PanelSheet> sheets_of(const Flow& flow) {
     return flow.panels ? std::span<const PanelSheet>(flow.panels->sheets) : std::span<const PanelSheet>{};
 }
 
-/// Returns the sheets of all contours between walls, along which the stream runs. Their strengths are not finite where the system is singular.
+/// Returns the sheets of all contours between walls, along which the stream runs. Their strengths are not finite where
+/// the system is singular.
 PanelSolution solve_panels(std::span<const Contour> contours, double alpha_deg, const FlowWalls& walls = {});
 
-/// Returns what the sheets of bodies between walls answer to a stream function: the strength at node i for a unit of it at node
-/// j, row by row, with the nodes of all bodies in their order. Lengths have the unit of the contours. Precondition: there is no
-/// row of blades.
+/// Returns what the sheets of bodies between walls answer to a stream function: the strength at node i for a unit of it
+/// at node j, row by row, with the nodes of all bodies in their order. Lengths have the unit of the contours.
+/// Precondition: there is no row of blades.
 std::vector<double> strengths_per_stream_function(std::span<const Contour> contours, const FlowWalls& walls);
 
 /// Returns the direction in which the flow leaves the trailing edge: between the two sides.
@@ -53,7 +54,8 @@ Point leaving_direction(std::span<const Point> nodes);
 /// Returns whether a base joins the last node to the first one.
 inline bool has_base(const PanelSheet& sheet) { return !(sheet.nodes.front() == sheet.nodes.back()); }
 
-/// The velocity that sheets, and their images in walls, add to the free stream. Lengths and directions of panels are worked out once, for many points.
+/// The velocity that sheets, and their images in walls, add to the free stream. Lengths and directions of panels are
+/// worked out once, for many points.
 class SheetVelocity {
 public:
     SheetVelocity(std::span<const PanelSheet> sheets, double alpha_deg, const FlowWalls& walls = {});

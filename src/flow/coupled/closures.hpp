@@ -30,7 +30,8 @@ struct Closure {
     Dual equilibrium;   ///< root of the shear stress coefficient in equilibrium
 };
 
-/// Returns the closure of a layer. `shear` is the root of its largest shear stress coefficient; laminar layers have none.
+/// Returns the closure of a layer. `shear` is the root of its largest shear stress coefficient; laminar layers have
+/// none.
 Closure close_layer(const Dual& shear, const Dual& momentum, const Dual& displacement, const Dual& speed,
                     double viscosity, Regime regime);
 

@@ -17,10 +17,10 @@ namespace lamina::flow::coupled {
 
 namespace {
 
-/// Opens a trailing edge that is thinner than this share of the extent, by moving both sides apart with the third power of the
-/// distance from the nose. Between sides that are closer to each other than panels are long, sources of one side leak to the
-/// other: lift of the sharp NACA 0012 at a Reynolds number of 1e6 and 2 degrees is 0.15 to 0.21 with other panels, and 0.208
-/// to 0.213 with bases of 0.0005 to 0.002.
+/// Opens a trailing edge that is thinner than this share of the extent, by moving both sides apart with the third power
+/// of the distance from the nose. Between sides that are closer to each other than panels are long, sources of one side
+/// leak to the other: lift of the sharp NACA 0012 at a Reynolds number of 1e6 and 2 degrees is 0.15 to 0.21 with other
+/// panels, and 0.208 to 0.213 with bases of 0.0005 to 0.002.
 void open_trailing_edge(Contour& contour) {
     constexpr double least_base = 5e-4;
     std::vector<Point>& nodes = contour.nodes;
@@ -59,8 +59,8 @@ Wall wall_of(const Influence& flow, std::size_t body) {
     return wall;
 }
 
-/// Returns the arc length along the outline at which it passes this x on its way from the trailing edge (or, on the lower side,
-/// on its way to it), that of the trailing edge without one.
+/// Returns the arc length along the outline at which it passes this x on its way from the trailing edge (or, on the
+/// lower side, on its way to it), that of the trailing edge without one.
 double arc_of_trip(const Wall& wall, const std::optional<double>& trip, bool upper) {
     const std::size_t n = wall.nodes.size();
     const double whole = wall.s[n - 1];
@@ -126,7 +126,8 @@ void add_layers(const Stretch& stretch, const CoupledLayers& layers, const Layer
     side[0].thickness = side[1].thickness, side[0].shape = side[1].shape;
 }
 
-/// Returns the drag coefficient: that of the momentum thickness far behind, which the one at the end of the wake becomes.
+/// Returns the drag coefficient: that of the momentum thickness far behind, which the one at the end of the wake
+/// becomes.
 double wake_drag(const Station& end) {
     return 2 * end.momentum * core::pow_reproducible(end.speed, 0.5 * (end.shape() + 5));
 }
@@ -144,8 +145,9 @@ Warning not_coupled(const Flow& flow) {
                     name, flow.alpha_deg)};
 }
 
-/// All panels together are no more than this: time is that of their cube. Of 8 and 16 degrees CRM-HL needs a fifth of the time with
-/// 450 that it needs with 600, and lift changes by at most 0.1 % where the same flow is found. More elements have too few each.
+/// All panels together are no more than this: time is that of their cube. Of 8 and 16 degrees CRM-HL needs a fifth of
+/// the time with 450 that it needs with 600, and lift changes by at most 0.1 % where the same flow is found. More
+/// elements have too few each.
 constexpr double most_panels = 450;
 constexpr std::size_t most_elements = 5;
 
@@ -197,8 +199,8 @@ private:
         return result;
     }
 
-    /// Looks for a flow from layers without displacement, then from the last one found, or from one at half of the angle, in steps
-    /// that are halved where they fail.
+    /// Looks for a flow from layers without displacement, then from the last one found, or from one at half of the
+    /// angle, in steps that are halved where they fail.
     Attempt reach(double alpha_deg, const LayerConditions& conditions) {
         constexpr int most_tries = 5;
         Attempt result = solve_at(alpha_deg, conditions, nullptr);

@@ -17,9 +17,9 @@ constexpr double wake_length = 1;        // behind all trailing edges, in chords
 constexpr std::size_t wake_places = 26;  // of a wake of this length that no other body is near
 /// Panels of a wake near walls need be no shorter than this share of it makes them.
 constexpr double least_panel_share = 0.01;
-/// Longest panel of a wake over the distance to other walls, as along walls, and to other wakes. Of eleven angles of CRM-HL and
-/// 30P-30N from 0 to 20 degrees all are found with 4, 10 with 2, and lift differs by 0.3 %. Without a bound on the distance to wakes
-/// 16 degrees fails, with 1 as many as three.
+/// Longest panel of a wake over the distance to other walls, as along walls, and to other wakes. Of eleven angles of
+/// CRM-HL and 30P-30N from 0 to 20 degrees all are found with 4, 10 with 2, and lift differs by 0.3 %. Without a bound
+/// on the distance to wakes 16 degrees fails, with 1 as many as three.
 constexpr double gap_share = 0.5, wake_gap_share = 4;
 
 /// A straight panel.
@@ -47,15 +47,16 @@ std::vector<double> strengths_for(std::span<const double> answers, std::span<con
     return strengths;
 }
 
-/// Where the angle begins at which nodes are seen from the first node of a panel, since it must not jump along an outline: the
-/// node from which it is followed, and the last direction before that with its angle from the panel.
+/// Where the angle begins at which nodes are seen from the first node of a panel, since it must not jump along an
+/// outline: the node from which it is followed, and the last direction before that with its angle from the panel.
 struct AngleStart {
     std::size_t node;
     Point direction;
     double angle;
 };
 
-/// Adds the stream function of unit sources on a panel, times a factor, at nodes along an outline, seen as from an image.
+/// Adds the stream function of unit sources on a panel, times a factor, at nodes along an outline, seen as from an
+/// image.
 void add_stream_function(std::span<const Point> nodes, const Panel& panel, const AngleStart& start, const Image& image,
                          std::span<double> to) {
     const double factor = image.stream_function_factor() / (2 * core::pi);
@@ -73,8 +74,8 @@ void add_stream_function(std::span<const Point> nodes, const Panel& panel, const
     }
 }
 
-/// Returns the strengths at all nodes that unit sources on a panel and its images call for. `own` is the body that the panel
-/// belongs to; from outside of it the constant of a body takes up where angles begin.
+/// Returns the strengths at all nodes that unit sources on a panel and its images call for. `own` is the body that the
+/// panel belongs to; from outside of it the constant of a body takes up where angles begin.
 std::vector<double> answer_to_sources(const PanelResponse& response, const Panel& panel, std::size_t own,
                                       const AngleStart& start) {
     std::vector<double> stream_function(response.nodes);
@@ -195,7 +196,8 @@ double distance_to_line(Point p, std::span<const Point> line) {
     return least;
 }
 
-/// Returns the longest panel of a body's wake at a point, by the distances from the walls and known wakes of the others.
+/// Returns the longest panel of a body's wake at a point, by the distances from the walls and known wakes of the
+/// others.
 double longest_panel(const PanelResponse& response, const Wakes& known, std::size_t own, Point p) {
     double longest = HUGE_VAL;
     for (std::size_t e = 0; e < response.bodies.size(); ++e) {
@@ -213,8 +215,8 @@ double way_to_rear(const PanelResponse& response, std::size_t own, Point stream)
     return rear - dot(response.bodies[own].contour.nodes.front(), stream);
 }
 
-/// Returns the places of a body's wake, by the midpoint rule along the flow. Panels are short where walls, and the other wakes
-/// if they are known, are near.
+/// Returns the places of a body's wake, by the midpoint rule along the flow. Panels are short where walls, and the
+/// other wakes if they are known, are near.
 std::vector<Point> trace_wake(const PanelResponse& response, const Wakes& known, std::size_t own,
                               const OuterFlow& flow) {
     const BodyPanels& body = response.bodies[own];
@@ -327,8 +329,8 @@ private:
                 answers_[i * panels_.size() + source] = answer(response_.bodies[b].first_node + i - places_[b].first);
     }
 
-    /// Returns what a panel and its images do to the speed at place k of a wake: of the wake itself the mean of the speeds at the
-    /// middles of both neighbouring panels, since that at the end of a panel is not finite.
+    /// Returns what a panel and its images do to the speed at place k of a wake: of the wake itself the mean of the
+    /// speeds at the middles of both neighbouring panels, since that at the end of a panel is not finite.
     double by_source(std::size_t e, std::size_t k, std::size_t source, Point p, Point direction) const {
         const bool is_own = source >= sources_[e].wake && source < sources_[e].end;
         double speed = 0;

@@ -1,5 +1,5 @@
-// What fluid that enters through walls or into wakes does to the speeds along them. A displacement thickness acts on the flow
-// outside as sources do whose strength is the growth of speed x displacement thickness.
+// What fluid that enters through walls or into wakes does to the speeds along them. A displacement thickness acts on
+// the flow outside as sources do whose strength is the growth of speed x displacement thickness.
 // Source: M. Drela, XFOIL (1989), section 3 (wall transpiration, sources along the wake).
 #pragma once
 
@@ -35,7 +35,8 @@ struct PanelResponse {
 /// Returns the response of bodies between walls. Lengths of both are in chords.
 PanelResponse make_response(std::span<const Contour> contours, const FlowWalls& walls);
 
-/// The places of one body: those of its wall in the order of its nodes, then those of its wake from the trailing edge on.
+/// The places of one body: those of its wall in the order of its nodes, then those of its wake from the trailing edge
+/// on.
 struct BodyPlaces {
     std::size_t first, wake, end;
     bool operator==(const BodyPlaces&) const = default;

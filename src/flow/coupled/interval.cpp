@@ -104,8 +104,8 @@ Dual excess(const DualStation& p, const DualStation& q, const Dual& share, const
                           close_station(t, Regime::laminar, conditions.viscosity));
 }
 
-/// Returns the share of the interval after which waves reach the critical exponent, by the method of Illinois (M. Dowell,
-/// P. Jarratt, BIT 11 (1971)).
+/// Returns the share of the interval after which waves reach the critical exponent, by the method of Illinois (M.
+/// Dowell, P. Jarratt, BIT 11 (1971)).
 double critical_share(const DualStation& p, const DualStation& q, const LayerConditions& conditions) {
     constexpr int most_steps = 40;
     constexpr double tolerance = 1e-10;

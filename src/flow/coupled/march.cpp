@@ -76,8 +76,8 @@ public:
         return false;
     }
 
-    /// Returns the shape factor that a station gets whose layer would separate: that of the station before with a slope as laminar
-    /// layers have in bubbles, and turbulent ones behind them. Precondition: there is a station before.
+    /// Returns the shape factor that a station gets whose layer would separate: that of the station before with a slope
+    /// as laminar layers have in bubbles, and turbulent ones behind them. Precondition: there is a station before.
     double shape_to_prescribe(IntervalKind kind, const Station& b) const {
         constexpr double laminar_slope = 0.03, turbulent_slope = -0.15;
         const Station& a = *before_;

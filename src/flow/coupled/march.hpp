@@ -9,7 +9,8 @@
 
 namespace lamina::flow::coupled {
 
-/// The law by which the speed at a station answers the displaced flux there: speed = `speed` + `answer` (flux - `flux`).
+/// The law by which the speed at a station answers the displaced flux there: speed = `speed` + `answer` (flux -
+/// `flux`).
 struct SpeedLaw {
     double speed, answer, flux;
 };
@@ -32,9 +33,10 @@ IntervalKind kind_of(const Stretch& stretch, std::size_t k);
 Equations equations_of(IntervalKind kind, const Station& a, const Station& b, const std::optional<double>& trip,
                        const LayerConditions& conditions);
 
-/// Leads the layers along a stretch. Its stations have their places, and numbers to begin with; the first one of a wake is
-/// known. Finds where layers become turbulent. Where `prescribed`, speeds are those of the laws without an answer, as long as
-/// layers stay attached; beyond that the shape factor is prescribed, and the speeds follow (XFOIL, section 4).
+/// Leads the layers along a stretch. Its stations have their places, and numbers to begin with; the first one of a wake
+/// is known. Finds where layers become turbulent. Where `prescribed`, speeds are those of the laws without an answer,
+/// as long as layers stay attached; beyond that the shape factor is prescribed, and the speeds follow (XFOIL, section
+/// 4).
 void lead_layers(Stretch& stretch, std::vector<Station>& stations, const LayerConditions& conditions, bool prescribed,
                  const std::function<SpeedLaw(std::size_t)>& law);
 

@@ -77,8 +77,8 @@ private:
         return true;
     }
 
-    /// Sets the width of the fluid at rest behind a base, across the direction in which flow leaves it. It closes over 2.5 of
-    /// its heights, as a cubic (XFOIL, section 4).
+    /// Sets the width of the fluid at rest behind a base, across the direction in which flow leaves it. It closes over
+    /// 2.5 of its heights, as a cubic (XFOIL, section 4).
     void set_base(const BodyPlaces& places) {
         constexpr double length_ratio = 2.5;
         const std::span walls(influence_.at.data() + places.first, places.wake - places.first);
@@ -139,8 +139,8 @@ private:
     // -----------------------------------------------------------------------------------------------------------------
     // Newton's method
 
-    /// What the changes of shear, momentum thickness and speed at a place follow from: coefficients of the changes of all
-    /// fluxes, a constant, and the coefficients of the ways of the stagnation points along the outlines.
+    /// What the changes of shear, momentum thickness and speed at a place follow from: coefficients of the changes of
+    /// all fluxes, a constant, and the coefficients of the ways of the stagnation points along the outlines.
     using Changes = std::array<std::vector<double>, 3>;
     enum Row { of_shear, of_momentum, of_speed };
 
@@ -149,7 +149,8 @@ private:
     std::size_t shifting(std::size_t body) const { return n_ + 1 + body; }
 
     /// Follows the changes through an interval: with the equations R = 0 of its unknowns and d displacement = (d flux -
-    /// displacement d speed) / speed. `direction` is that in which arc lengths grow with the way of the body's stagnation point.
+    /// displacement d speed) / speed. `direction` is that in which arc lengths grow with the way of the body's
+    /// stagnation point.
     void follow(const Equations& equations, std::size_t body, double direction, const std::size_t* before,
                 std::size_t place) {
         const Station& b = at(place);
@@ -262,8 +263,8 @@ private:
         return sum + change_by_flux(place, row, flux);
     }
 
-    /// Returns how far each stagnation point goes: as far as the speeds at its neighbours say that change with the ways of all.
-    /// `solved` has the fluxes without ways, and those for a unit of each.
+    /// Returns how far each stagnation point goes: as far as the speeds at its neighbours say that change with the ways
+    /// of all. `solved` has the fluxes without ways, and those for a unit of each.
     std::vector<double> ways_of_stagnation(const std::vector<std::vector<double>>& solved) const {
         const std::size_t bodies = layers_.bodies.size();
         std::vector<double> matrix(bodies * bodies);

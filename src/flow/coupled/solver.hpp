@@ -1,6 +1,6 @@
 // Layers and outer flow of all bodies solved together, by Newton's method on all stations at once.
-// Source: M. Drela, XFOIL (1989), section 5; the sweep that prepares each step lets the speed answer the displaced flux at
-// the same place, after A. E. P. Veldman, AIAA J. 19 (1981), so that it passes separation.
+// Source: M. Drela, XFOIL (1989), section 5; the sweep that prepares each step lets the speed answer the displaced flux
+// at the same place, after A. E. P. Veldman, AIAA J. 19 (1981), so that it passes separation.
 #pragma once
 
 #include <cstddef>
@@ -40,11 +40,12 @@ struct Trips {
     double upper, lower;
 };
 
-/// Returns the layers of one flow as those of another one round the same bodies to begin with. Places of the wakes, which lie
-/// elsewhere, have layers as at the same distances from the trailing edges.
+/// Returns the layers of one flow as those of another one round the same bodies to begin with. Places of the wakes,
+/// which lie elsewhere, have layers as at the same distances from the trailing edges.
 CoupledLayers carry_over(const CoupledLayers& layers, const Influence& from, const Influence& to);
 
-/// Solves the flow. It begins with `start`, layers at its places, or with layers in the flow without displacement. There are trips for each body. Numbers are finite only where it has converged.
+/// Solves the flow. It begins with `start`, layers at its places, or with layers in the flow without displacement.
+/// There are trips for each body. Numbers are finite only where it has converged.
 CoupledLayers solve_layers(const Influence& influence, const LayerConditions& conditions, std::span<const Trips> trips,
                            const CoupledLayers* start);
 
