@@ -4,11 +4,11 @@
 //     lamina_measure_ranks --until-pieces GRADATION RANKS...
 //     lamina_measure_ranks --forget GRADATION RANKS...
 //
-// Threads stand in for processes. Each has a clock of its own, which runs while the thread has a processor, and jumps to
-// that of another rank where it has waited for this one. One thread works at a time, until it waits, and then the one
-// whose clock is the furthest behind: so pieces are taken in the order in which ranks would ask for them, and no rank finds
-// its caches emptied and its memory locked by others in the midst of its work. What a machine with a processor
-// for each rank would take is what the clocks say, however busy this one is. Messages take no time.
+// Threads stand in for processes. Each has a clock of its own, which runs while the thread has a processor, and jumps
+// to that of another rank where it has waited for this one. One thread works at a time, until it waits, and then the
+// one whose clock is the furthest behind: so pieces are taken in the order in which ranks would ask for them, and no
+// rank finds its caches emptied and its memory locked by others in the midst of its work. What a machine with a
+// processor for each rank would take is what the clocks say, however busy this one is. Messages take no time.
 // --until-pieces ends before pieces are made. --forget keeps no pieces, so that the memory limits no mesh: they go to a
 // file, as with --stream, to which nothing is written.
 #include <algorithm>
@@ -349,8 +349,8 @@ int main(int argc, char** argv) {
     lamina::CaseOptions options = lamina::bench::thesis_case(std::strtod(argv[first], nullptr));
     options.limits.max_triangles = 4'000'000'000;
     std::vector<std::string> runs;
-    // The first run asks the system for its memory, which counts where one rank is to be compared with, unless little is
-    // kept of the mesh.
+    // The first run asks the system for its memory, which counts where one rank is to be compared with, unless little
+    // is kept of the mesh.
     if (!until_pieces && !forget && std::atoi(argv[first + 1]) == 1) lamina::bench::measured(1, options, false, forget);
     for (int i = first + 1; i < argc; ++i)
         runs.push_back(

@@ -1,6 +1,6 @@
-// Measures remeshing on the case of a layer at a line and an inclined shock, five passes from a coarse square: the time of
-// each pass, and its ratio to a Delaunay triangulation of as many points as the result has. Whoever has mmg2d measures it
-// beside with the same metric.
+// Measures remeshing on the case of a layer at a line and an inclined shock, five passes from a coarse square: the time
+// of each pass, and its ratio to a Delaunay triangulation of as many points as the result has. Whoever has mmg2d
+// measures it beside with the same metric.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// lamina_options_page: prints docs/options.md, the table of the options of `lamina mesh`. ./dev docs writes the page, and
-// a test compares it.
+// lamina_options_page: prints docs/options.md, the table of the options of `lamina mesh`. ./dev docs writes the page,
+// and a test compares it.
 #include <cstdio>
 #include <string>
 #include <string_view>

@@ -60,11 +60,11 @@ struct CoupledFlow {
 LAMINA_EXPORT bool can_be_coupled(const Geometry& geometry, const ReferenceConditions& reference,
                                   const FlowWalls& walls = {});
 
-/// Returns the flow between walls at each of the conditions. Layers follow the equations of momentum, kinetic energy and
-/// lag of the shear stress, waves grow along the envelope of those of all frequencies, and wakes end one chord behind the
-/// rearmost trailing edge. Walls of coves are faired: points there are not on them. A flow that is not found from layers
-/// without displacement is reached in steps from the last one found. Preconditions: can_be_coupled() at each of the
-/// conditions, and all have the same chord. Throws OptionError for conditions or options out of range.
+/// Returns the flow between walls at each of the conditions. Layers follow the equations of momentum, kinetic energy
+/// and lag of the shear stress, waves grow along the envelope of those of all frequencies, and wakes end one chord
+/// behind the rearmost trailing edge. Walls of coves are faired: points there are not on them. A flow that is not found
+/// from layers without displacement is reached in steps from the last one found. Preconditions: can_be_coupled() at
+/// each of the conditions, and all have the same chord. Throws OptionError for conditions or options out of range.
 LAMINA_EXPORT std::vector<CoupledFlow> solve_coupled_flow(const Geometry& geometry,
                                                           std::span<const FlowConditions> conditions,
                                                           const TransitionOptions& transition = {},

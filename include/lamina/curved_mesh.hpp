@@ -59,7 +59,8 @@ struct CurvedCheck {
     std::size_t defect_count = 0;     ///< number of all defects
     std::size_t invalid = 0;          ///< cells that are proved to be invalid
     std::size_t unproved = 0;         ///< cells that are proved neither valid nor invalid
-    /// Smallest over largest determinant in a cell, as bounded: the smallest ratio of all cells, and its 1st percentile.
+    /// Smallest over largest determinant in a cell, as bounded: the smallest ratio of all cells, and its 1st
+    /// percentile.
     double min_scaled_jacobian = 0;
     Point min_scaled_jacobian_at{};  ///< a vertex of that cell
     double p01_scaled_jacobian = 0;  ///< the 1st percentile, within 0.01

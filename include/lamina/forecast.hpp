@@ -51,8 +51,9 @@ struct MeshForecast {
     double vertices = 0;              ///< number of vertices, by estimate
 };
 
-/// Returns what generate_mesh() would make of these bodies. For CaseOptions::vertices and cells it finds the scale with which
-/// a forecast has as many. Precondition: check_simple(geometry). Throws what generate_mesh() throws before it makes cells.
+/// Returns what generate_mesh() would make of these bodies. For CaseOptions::vertices and cells it finds the scale with
+/// which a forecast has as many. Precondition: check_simple(geometry). Throws what generate_mesh() throws before it
+/// makes cells.
 LAMINA_EXPORT MeshForecast forecast_mesh(const Geometry& geometry, const CaseOptions& options = {},
                                          const Progress& progress = {});
 /// Reads the inputs, and returns what generate_mesh() would make of them.

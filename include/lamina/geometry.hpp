@@ -174,8 +174,9 @@ LAMINA_EXPORT std::vector<Element> read_inputs(std::span<const std::string> inpu
 /// direction, or the two surfaces one behind the other. `source` stands for the file in messages, and points for lines.
 LAMINA_EXPORT Element element_of_points(std::span<const Point> points, const std::string& source,
                                         const GeometryOptions& options = {});
-/// Makes the geometry of elements and sheets: names, transforms and checks them. Throws UsageError for a wrong number of names,
-/// for repeated names and for those that no element has, InputError also for transformations that cannot be made.
+/// Makes the geometry of elements and sheets: names, transforms and checks them. Throws UsageError for a wrong number
+/// of names, for repeated names and for those that no element has, InputError also for transformations that cannot be
+/// made.
 LAMINA_EXPORT Geometry make_geometry(std::vector<Element> elements, const GeometryOptions& options = {});
 
 /// The trailing edges of NACA sections.

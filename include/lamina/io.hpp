@@ -69,7 +69,8 @@ struct ReadOptions {
 /// Reads a mesh. Throws InputError (with the line, for text formats) where the file is malformed.
 LAMINA_EXPORT Mesh read_mesh(const std::filesystem::path& file, const ReadOptions& options = {});
 
-/// Writes a mesh with curved cells: MSH, VTU and CGNS. Throws UsageError for other formats, and what write_mesh() throws.
+/// Writes a mesh with curved cells: MSH, VTU and CGNS. Throws UsageError for other formats, and what write_mesh()
+/// throws.
 LAMINA_EXPORT void write_curved_mesh(const MeshView& mesh, const CurvedNodes& nodes, const std::filesystem::path& file,
                                      const WriteOptions& options = {});
 /// Throws UsageError for formats that do not hold curved cells, in one line that names those that do.

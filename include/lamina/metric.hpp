@@ -1,4 +1,5 @@
-// Metrics: lengths and directions of edges that a mesh is to have, as tensors at vertices, and the files that hold them.
+// Metrics: lengths and directions of edges that a mesh is to have, as tensors at vertices, and the files that hold
+// them.
 //
 // Guarantees:
 //  1. read_metric() reads back exactly what write_metric() writes.
@@ -28,10 +29,11 @@ struct MetricTensor {
     friend constexpr bool operator==(const MetricTensor&, const MetricTensor&) = default;
 };
 
-/// Reads the tensors at the vertices of a mesh: from a Medit file in ASCII (.sol) with one solution per vertex, a symmetric
-/// tensor or a size; or from a VTU file whose point data hold the array `metric`, or one tensor alone. A tensor has 3
-/// components (xx, xy, yy; only with this name), 4, 6 (xx, yy, zz, xy, yz, xz) or 9. A size h is the tensor with 1 / h^2 on
-/// its diagonal. Throws IoError; UsageError for other extensions; InputError where the file is malformed or holds none.
+/// Reads the tensors at the vertices of a mesh: from a Medit file in ASCII (.sol) with one solution per vertex, a
+/// symmetric tensor or a size; or from a VTU file whose point data hold the array `metric`, or one tensor alone. A
+/// tensor has 3 components (xx, xy, yy; only with this name), 4, 6 (xx, yy, zz, xy, yz, xz) or 9. A size h is the
+/// tensor with 1 / h^2 on its diagonal. Throws IoError; UsageError for other extensions; InputError where the file is
+/// malformed or holds none.
 LAMINA_EXPORT std::vector<MetricTensor> read_metric(const std::filesystem::path& file);
 /// Writes tensors as a Medit file in ASCII (.sol). Throws IoError; UsageError for other extensions.
 LAMINA_EXPORT void write_metric(std::span<const MetricTensor> metric, const std::filesystem::path& file);

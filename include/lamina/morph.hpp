@@ -1,4 +1,5 @@
-// Morphing: a mesh of given cells is moved to other shapes of its bodies; the derivative of its places is known as well.
+// Morphing: a mesh of given cells is moved to other shapes of its bodies; the derivative of its places is known as
+// well.
 //
 // Guarantees:
 //  1. Walls that do not move leave every bit of the mesh as it is. What stands on the rays above a wall vertex moves

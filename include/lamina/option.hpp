@@ -96,8 +96,9 @@ template <class Options>
 using OptionTable = std::vector<Option<Options>>;
 
 /// Returns the table of an options struct, with names, ranges and help. That of CaseOptions has the rows of all stages,
-/// which have tables of their own. Others are those of ConstrainedOptions, MeshCheckOptions, PlotOptions, RemeshOptions,
-/// SolutionSizeOptions, SolverCaseOptions and TransitionOptions. A program that asks for another one does not link.
+/// which have tables of their own. Others are those of ConstrainedOptions, MeshCheckOptions, PlotOptions,
+/// RemeshOptions, SolutionSizeOptions, SolverCaseOptions and TransitionOptions. A program that asks for another one
+/// does not link.
 template <class Options>
 LAMINA_EXPORT const OptionTable<Options>& option_table();
 

@@ -36,8 +36,8 @@ struct AssembleOptions {
     bool inlet_outlet = false;
 };
 
-/// A line inside the domain that becomes edges of the mesh with a marker of its own: a rake, a sensor, an actuator disc, a
-/// baffle. It may cross other lines and bodies, inside which it ends, and layers give way to it.
+/// A line inside the domain that becomes edges of the mesh with a marker of its own: a rake, a sensor, an actuator
+/// disc, a baffle. It may cross other lines and bodies, inside which it ends, and layers give way to it.
 struct InternalLine {
     std::string name;             ///< of its marker
     std::vector<Point> points{};  ///< at least two, in units of the input
@@ -65,13 +65,13 @@ struct CaseOptions {
     /// Divides the lengths that no option holds: spacings and wakes that the flow decides on, slowest growth along
     /// walls, numbers of layers up to least heights. One of what refined() changes.
     double fineness = 1;
-    /// How many vertices or cells the mesh is to have, within 3 %: with_scale() then divides the lengths of the options. At
-    /// most one of both is given.
+    /// How many vertices or cells the mesh is to have, within 3 %: with_scale() then divides the lengths of the
+    /// options. At most one of both is given.
     std::optional<std::size_t> vertices{};
     std::optional<std::size_t> cells{};  ///< as vertices
     std::vector<InternalLine> lines{};   ///< lines inside the domain
-    /// The order of the cells: 1 makes straight ones, and up to max_cell_order curved ones that follow the walls (MeshResult::curved).
-    /// Needs layers of topology quads or layered, or none; excludes sheets and rows of blades.
+    /// The order of the cells: 1 makes straight ones, and up to max_cell_order curved ones that follow the walls
+    /// (MeshResult::curved). Needs layers of topology quads or layered, or none; excludes sheets and rows of blades.
     unsigned order = 1;
     WorkLimits limits{};   ///< runs beyond them are refused
     unsigned threads = 0;  ///< number of threads; 0: one per core
@@ -99,10 +99,10 @@ LAMINA_EXPORT FlowWalls flow_walls(const Geometry& geometry, const FlowCondition
 /// `conditions` are those of the geometry. Throws OptionError where points are to be kept, for growth `aflr`, whose
 /// ratios are fixed, where the ratio is not positive, and where the new options are out of range.
 LAMINA_EXPORT CaseOptions refined(const CaseOptions& options, double ratio, const ReferenceConditions& conditions = {});
-/// Returns the options of a mesh of the same first heights that is finer by `scale` elsewhere; below 1 it is coarser. All of
-/// refined() holds, but for layers: the growth r of those up to isotropy becomes r^(1/scale), and a given number stays as it
-/// is. CaseOptions::vertices and cells are left out. Throws OptionError where points are to be kept, and for a scale that is
-/// not positive.
+/// Returns the options of a mesh of the same first heights that is finer by `scale` elsewhere; below 1 it is coarser.
+/// All of refined() holds, but for layers: the growth r of those up to isotropy becomes r^(1/scale), and a given number
+/// stays as it is. CaseOptions::vertices and cells are left out. Throws OptionError where points are to be kept, and
+/// for a scale that is not positive.
 LAMINA_EXPORT CaseOptions with_scale(const CaseOptions& options, double scale);
 /// Returns the bodies with the walls that generate_mesh() begins with: prepare_surfaces() with spacings for the layer.
 LAMINA_EXPORT Geometry prepare_geometry(Geometry geometry, const CaseOptions& options);
@@ -178,8 +178,8 @@ struct FlowDecisions {
     std::vector<FlowSpacing> spacings;  ///< of each element whose wall was resampled, if the flow asks for any there
     std::vector<FlowShock> shocks;      ///< beyond the critical Mach number
     bool knows_shocks = false;  ///< whether compressible flow before the mesh became steady, and said where they are
-    /// Per element the largest skin friction times the wall's density, both by the free stream, where compressible flow with
-    /// boundary layers was found: first heights for a y+ follow from these. Else empty.
+    /// Per element the largest skin friction times the wall's density, both by the free stream, where compressible flow
+    /// with boundary layers was found: first heights for a y+ follow from these. Else empty.
     std::vector<double> frictions{};
     std::vector<AngleDecisions> angles{};  ///< of FlowConditions::alphas; empty: the mesh is for one angle
 };
@@ -253,9 +253,9 @@ struct ScaledMesh {
     double count = 0;   ///< as count() returned it
 };
 
-/// Makes meshes of different scales until one has so many vertices, or whatever `count` counts, within 3 %; eight at most.
-/// Returns the nearest. Scales for which make() throws OptionError, LimitError included, are taken for too large above 1 and
-/// too small below; that of scale 1 is passed on. Precondition: counts grow with the scale.
+/// Makes meshes of different scales until one has so many vertices, or whatever `count` counts, within 3 %; eight at
+/// most. Returns the nearest. Scales for which make() throws OptionError, LimitError included, are taken for too large
+/// above 1 and too small below; that of scale 1 is passed on. Precondition: counts grow with the scale.
 LAMINA_EXPORT ScaledMesh mesh_of_count(double wanted, const std::function<MeshResult(double scale)>& make,
                                        const std::function<double(const MeshResult&)>& count);
 
@@ -264,11 +264,11 @@ LAMINA_EXPORT ScaledMesh mesh_of_count(double wanted, const std::function<MeshRe
 /// 0.05 chords of the walls, since peaks beside lips and noses do not count. False without a Mach number.
 LAMINA_EXPORT bool is_beyond_critical(const Flow& flow, const FlowConditions& conditions);
 
-/// Returns the steady compressible flow at the Mach number of the conditions: solves the Euler equations on a mesh without
-/// layers of some 9,000 triangles and more per element. Where a Reynolds number of at least 1e4 is given and the free
-/// stream is subsonic, turbulent boundary layers and wakes displace the flow (Green's lag entrainment, solved together with
-/// the flow's answer after Veldman). Precondition: check_simple(geometry). Throws OptionError for conditions out of range
-/// and without a Mach number, and what generate_mesh() throws.
+/// Returns the steady compressible flow at the Mach number of the conditions: solves the Euler equations on a mesh
+/// without layers of some 9,000 triangles and more per element. Where a Reynolds number of at least 1e4 is given and
+/// the free stream is subsonic, turbulent boundary layers and wakes displace the flow (Green's lag entrainment, solved
+/// together with the flow's answer after Veldman). Precondition: check_simple(geometry). Throws OptionError for
+/// conditions out of range and without a Mach number, and what generate_mesh() throws.
 LAMINA_EXPORT CompressibleFlow solve_compressible_flow(const Geometry& geometry, const FlowConditions& conditions);
 
 }  // namespace lamina

@@ -1,4 +1,5 @@
-// A mesh of triangles adapted to a metric: small and stretched where and as the metric asks for it, the layer untouched.
+// A mesh of triangles adapted to a metric: small and stretched where and as the metric asks for it, the layer
+// untouched.
 //
 // Guarantees:
 //  1. Every triangle is counter-clockwise at every moment, by the exact predicate: the result is valid where the mesh is.
@@ -73,8 +74,8 @@ LAMINA_EXPORT RemeshedMesh remesh(const MeshView& mesh, std::span<const MetricTe
 /// using swapping and smoothing, Int. J. Numer. Methods Eng. 40 (1997), in two dimensions.
 LAMINA_EXPORT Mesh reconnect(const MeshView& mesh);
 
-/// Returns the number of vertices that a metric asks for beyond the layer: 2 / sqrt(3) times its complexity, which
-/// is the integral of the square root of its determinant. Source: A. Loseille, F. Alauzet, SIAM J. Numer. Anal. 49 (2011).
+/// Returns the number of vertices that a metric asks for beyond the layer: 2 / sqrt(3) times its complexity, which is
+/// the integral of the square root of its determinant. Source: A. Loseille, F. Alauzet, SIAM J. Numer. Anal. 49 (2011).
 LAMINA_EXPORT double vertices_of_metric(const MeshView& mesh, std::span<const MetricTensor> metric);
 
 }  // namespace lamina

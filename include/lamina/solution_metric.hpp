@@ -23,12 +23,13 @@
 
 namespace lamina {
 
-/// Returns the mesh with the triangles beyond its layer replaced by those that a solution on another mesh of the same domain asks
-/// for: those of the metric c det(|H|)^(-1/(2p+2)) |H|, where |H| is the absolute value of the recovered Hessian of a field. It
-/// has the least L^p norm of interpolation errors for a given number of vertices. Several fields are scaled so that each by
-/// itself asks for the same number, and their metrics are intersected. Sizes are within SolutionSizeOptions::max_change
-/// of the edges of the solution's mesh in each direction, and grow by SolutionSizeOptions::gradation, beginning with
-/// the edges that stay. The two lengths at a place differ by a factor of `max_ratio` at most.
+/// Returns the mesh with the triangles beyond its layer replaced by those that a solution on another mesh of the same
+/// domain asks for: those of the metric c det(|H|)^(-1/(2p+2)) |H|, where |H| is the absolute value of the recovered
+/// Hessian of a field. It has the least L^p norm of interpolation errors for a given number of vertices. Several fields
+/// are scaled so that each by itself asks for the same number, and their metrics are intersected. Sizes are within
+/// SolutionSizeOptions::max_change of the edges of the solution's mesh in each direction, and grow by
+/// SolutionSizeOptions::gradation, beginning with the edges that stay. The two lengths at a place differ by a factor of
+/// `max_ratio` at most.
 ///
 /// Throws OptionError where an option is out of range, where fields are missing or linear, and where no sizes within
 /// max_change give so many or so few vertices; and the errors of remesh() and transfer().

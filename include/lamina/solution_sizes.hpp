@@ -39,7 +39,8 @@ struct WallFlowOptions {
     std::vector<std::string> components() const { return {velocity + ":x", velocity + ":y"}; }
 };
 
-/// The fields of an incompressible flow and of the adjoint solution of a goal, as the drag. They are at the same places.
+/// The fields of an incompressible flow and of the adjoint solution of a goal, as the drag. They are at the same
+/// places.
 struct GoalOptions {
     std::string velocity = "U";           ///< name of the vectors of velocity
     std::string pressure = "p";           ///< name of the pressure over the density

@@ -89,10 +89,11 @@ struct SolverConditions {
 /// and for PyFR where the flow would be turbulent.
 LAMINA_EXPORT std::vector<Warning> find_solver_warnings(FlowSolver solver, const Mesh& mesh,
                                                         const ReferenceConditions& conditions = {});
-/// Returns WarningCode::unsuited_speed where the mesh of a compressible case is not made for this Mach number: sizes follow
-/// no shocks (FlowDecisions::knows_shocks), and the Mach number is above 0.5, or the flow is expected to be supersonic
-/// along more than 0.05 chords of the walls, by the pressures of the incompressible flow before the mesh (null where
-/// there is none) and Karman and Tsien's rule; and at supersonic free streams, whose bow shocks sizes leave out.
+/// Returns WarningCode::unsuited_speed where the mesh of a compressible case is not made for this Mach number: sizes
+/// follow no shocks (FlowDecisions::knows_shocks), and the Mach number is above 0.5, or the flow is expected to be
+/// supersonic along more than 0.05 chords of the walls, by the pressures of the incompressible flow before the mesh
+/// (null where there is none) and Karman and Tsien's rule; and at supersonic free streams, whose bow shocks sizes leave
+/// out.
 LAMINA_EXPORT std::vector<Warning> find_speed_warnings(double mach, const Flow* flow, bool knows_shocks);
 /// Returns the names of all files of a case in this folder. The first is the mesh, or the folder that it is in.
 LAMINA_EXPORT std::vector<std::filesystem::path> solver_case_outputs(FlowSolver solver,

@@ -130,7 +130,8 @@ std::string find_polar(const nb::list& given, const OptionValues& values, const 
     return text;
 }
 
-/// Returns the flow that `lamina flow` finds, with the options of meshes, and those of TransitionOptions by their names.
+/// Returns the flow that `lamina flow` finds, with the options of meshes, and those of TransitionOptions by their
+/// names.
 nb::dict find_flow(const nb::list& given, const OptionValues& values, const OptionValues& of_transition) {
     const CaseOptions options = make_request(values).options;
     const TransitionOptions transition = transition_of(of_transition);

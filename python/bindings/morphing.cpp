@@ -61,7 +61,8 @@ public:
         return computed([&] { return moved_wall_points(*map_, transformations); });
     }
 
-    /// Returns the mesh, the fraction of the motion that was made, the number of maps that made it, and the text of the cell that stops it.
+    /// Returns the mesh, the fraction of the motion that was made, the number of maps that made it, and the text of the
+    /// cell that stops it.
     nb::tuple morph(const PointsArgument& wall, bool as_far_as_possible, bool incremental, bool reconnects) const {
         MorphResult result;
         const std::vector<Point> at = at_walls(wall);

@@ -85,8 +85,8 @@ nb::tuple to_python(MeshResult result) {
     return nb::make_tuple(shared(std::move(result.mesh), std::move(result.curved)), warnings, facts, columns);
 }
 
-/// Makes a mesh, whose lengths are divided by `divisor` where there is one. What `stop` raises ends the run; it is called
-/// now and then unless it is None.
+/// Makes a mesh, whose lengths are divided by `divisor` where there is one. What `stop` raises ends the run; it is
+/// called now and then unless it is None.
 nb::tuple generate(const nb::list& given_sections, const OptionValues& values, const std::optional<Background>& sizes,
                    const nb::object& callback, const nb::object& stop, const std::optional<double>& divisor) {
     const MeshRequest request = request_of(values, sizes);

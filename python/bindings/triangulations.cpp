@@ -172,8 +172,8 @@ std::vector<std::pair<Point, double>> sizes_on_boundary(const std::vector<Point>
     return found;
 }
 
-/// Returns the smaller one of the size of a field and that of the areas of triangles. Triangles at the boundary may have
-/// the centres of their circles outside, where the vertex of the boundary that is nearest says the size.
+/// Returns the smaller one of the size of a field and that of the areas of triangles. Triangles at the boundary may
+/// have the centres of their circles outside, where the vertex of the boundary that is nearest says the size.
 SizeFunction size_function_of(const SizeField& size, const std::vector<Point>& points,
                               const ConstrainedTriangulation& triangulation, const ListArgument<double>& areas,
                               double max_area_ratio) {

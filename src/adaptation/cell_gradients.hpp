@@ -19,8 +19,8 @@ std::vector<double> cell_values(const Mesh& mesh, const SolutionField& field);
 /// Returns the middles of all cells.
 std::vector<Point> cell_middles(const Mesh& mesh);
 
-/// Finds gradients in cells by least squares over the cells that share a vertex with each, with weights of the inverse square of
-/// distances, which copes with the stretched cells of curved layers. Source: D. J. Mavriplis, AIAA 2003-3986.
+/// Finds gradients in cells by least squares over the cells that share a vertex with each, with weights of the inverse
+/// square of distances, which copes with the stretched cells of curved layers. Source: D. J. Mavriplis, AIAA 2003-3986.
 class CellReconstruction {
 public:
     explicit CellReconstruction(const Mesh& mesh)

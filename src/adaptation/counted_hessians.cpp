@@ -21,8 +21,8 @@ CountedHessians hessians_of(const Mesh& mesh, const SolutionField& field) {
     return hessians;
 }
 
-/// Returns the fields that are to be interpolated well: all but the components of the velocity that walls need, which stand
-/// last.
+/// Returns the fields that are to be interpolated well: all but the components of the velocity that walls need, which
+/// stand last.
 std::span<const SolutionField> interpolated_fields(const Solution& solution, const SolutionSizeOptions& options) {
     const std::size_t of_walls = options.walls ? 2 : 0;
     return std::span(solution.fields).first(solution.fields.size() - std::min(solution.fields.size(), of_walls));

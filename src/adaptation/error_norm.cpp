@@ -19,9 +19,9 @@ double mean_power_on_line(double p) {
     return sum / pieces;
 }
 
-/// The error at a point with the barycentric coordinates a, b, c is half of a b |e_ab|^2 + b c |e_bc|^2 + c a |e_ca|^2, where
-/// edges count as long as they are in the direction of x. Points are the middles of small triangles, which stand on their
-/// base or on their tip; directions repeat after 60 degrees.
+/// The error at a point with the barycentric coordinates a, b, c is half of a b |e_ab|^2 + b c |e_bc|^2 + c a |e_ca|^2,
+/// where edges count as long as they are in the direction of x. Points are the middles of small triangles, which stand
+/// on their base or on their tip; directions repeat after 60 degrees.
 double mean_power_on_triangle(double p) {
     constexpr int rows = 24, directions = 8;
     const auto squared_cosine = [](double degrees) {

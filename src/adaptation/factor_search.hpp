@@ -16,7 +16,8 @@ public:
     /// Returns whether a mesh with factor() should be made.
     bool goes_on() const;
     double factor() const { return factor_; }
-    /// Notes the number of vertices with factor(), and chooses the next one. Returns whether this mesh is the best so far.
+    /// Notes the number of vertices with factor(), and chooses the next one. Returns whether this mesh is the best so
+    /// far.
     bool note(std::size_t vertices);
     /// Throws OptionError where the best mesh has another number of vertices than asked for.
     void require_found(const SolutionSizeOptions& options) const;

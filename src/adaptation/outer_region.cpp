@@ -156,8 +156,8 @@ std::vector<Segment> edges_of_sides(const Mesh& mesh) {
     return edges;
 }
 
-/// Divides a loop into stretches: sides end at corners, and all other edges that follow each other are one stretch. Nothing
-/// where there are sides alone.
+/// Divides a loop into stretches: sides end at corners, and all other edges that follow each other are one stretch.
+/// Nothing where there are sides alone.
 std::vector<DomainStretch> stretches_of(const Mesh& mesh, VertexLoop loop) {
     const std::vector<Segment> sides = edges_of_sides(mesh);
     if (sides.empty()) return {};

@@ -23,8 +23,8 @@ struct OuterRegion {
     std::vector<Point> points;                   ///< the vertices of all borders that stay, and corners of the domain
     std::vector<std::vector<VertexId>> borders;  ///< indices into points, counter-clockwise round bodies and layers
     decoupling::FarField far_field;              ///< the outer border
-    /// The outer border, clockwise, where fronts of layers or walls are a part of it, as on ground, on bodies that a line
-    /// of symmetry cuts and in a row of blades; empty elsewhere.
+    /// The outer border, clockwise, where fronts of layers or walls are a part of it, as on ground, on bodies that a
+    /// line of symmetry cuts and in a row of blades; empty elsewhere.
     std::vector<DomainStretch> domain{};
     std::size_t inside_vertices = 0;  ///< number of vertices in and below the layers, without the borders'
 };

@@ -49,8 +49,8 @@ void continue_into_layer(const Mesh& mesh, std::vector<char> isotropic, const Ou
     }
 }
 
-/// Returns, per vertex of chosen cells, the metric in which the edges of the cells there have the length 1: edges of length 1 in
-/// all directions have half of the inverse of their metric as the mean of e e^T.
+/// Returns, per vertex of chosen cells, the metric in which the edges of the cells there have the length 1: edges of
+/// length 1 in all directions have half of the inverse of their metric as the mean of e e^T.
 std::vector<MetricTensor> metrics_of_edges(const Mesh& mesh, const VertexCells& cells) {
     std::vector<MetricTensor> result(mesh.points.size());
     for (std::size_t v = 0; v < result.size(); ++v) {
@@ -103,7 +103,8 @@ public:
     }
 
 private:
-    /// Returns the metric with no direction's size changed by more than max_change_. No size is asked for where it is 0.
+    /// Returns the metric with no direction's size changed by more than max_change_. No size is asked for where it is
+    /// 0.
     MetricTensor within_change(const MetricTensor& asked, const MetricTensor& before) const {
         const double most = max_change_ * max_change_;
         const MetricTensor largest_sizes = (1 / most) * before;
@@ -150,8 +151,8 @@ public:
     NextMesh(const Mesh& mesh, const Solution& solution)
         : mesh_(mesh), sizes_{solution.mesh, {}}, borders_(border_edges(mesh, isotropic_cells(mesh))) {}
 
-    /// Returns the metric that asks for sizes which are given on the mesh of the solution. At edges that stay it asks for no
-    /// longer ones, in all directions, so that sizes grow from there.
+    /// Returns the metric that asks for sizes which are given on the mesh of the solution. At edges that stay it asks
+    /// for no longer ones, in all directions, so that sizes grow from there.
     std::vector<MetricTensor> metric(const std::vector<MetricTensor>& sizes) {
         sizes_.fields = {{"xx", false, {}}, {"xy", false, {}}, {"yy", false, {}}};
         for (const MetricTensor& h : sizes) {

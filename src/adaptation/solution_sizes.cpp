@@ -1,7 +1,7 @@
 // Sizes that interpolate a solution best. For isotropic triangles of edge h the error of linear interpolation is some
-// multiple of lambda h^2, and there are some 1 / h^2 triangles per unit of area. The integral of (lambda h^2)^p is least
-// for a given integral of 1 / h^2 where h = c lambda^(-p / (2 p + 2)). Source: F. Alauzet, A. Loseille, J. Comput. Phys. 229
-// (2010), section 2.3.
+// multiple of lambda h^2, and there are some 1 / h^2 triangles per unit of area. The integral of (lambda h^2)^p is
+// least for a given integral of 1 / h^2 where h = c lambda^(-p / (2 p + 2)). Source: F. Alauzet, A. Loseille, J.
+// Comput. Phys. 229 (2010), section 2.3.
 #include <lamina/solution_sizes.hpp>
 
 #include <algorithm>

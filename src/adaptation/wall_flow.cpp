@@ -23,7 +23,8 @@ struct CellFlow {
     std::vector<double> vorticity;
 };
 
-/// Returns the flow in the cells from velocities at vertices: their mean, and the circulation round the cell over its area.
+/// Returns the flow in the cells from velocities at vertices: their mean, and the circulation round the cell over its
+/// area.
 CellFlow flow_from_vertices(const Mesh& mesh, std::span<const double> x, std::span<const double> y) {
     const mesh::CellEdges cells(mesh);
     CellFlow flow{std::vector<Point>(cells.cells()), std::vector<double>(cells.cells())};
@@ -105,7 +106,8 @@ private:
         std::size_t cell;
     };
 
-    /// Returns the edge through which the way leaves the cell that it has entered through `edge`, and the distance there.
+    /// Returns the edge through which the way leaves the cell that it has entered through `edge`, and the distance
+    /// there.
     std::optional<std::pair<std::uint32_t, double>> exit_of(std::uint32_t edge, Point from, Point normal) const {
         const std::size_t cell = cells_.cell_of(edge);
         for (std::size_t e = cells_.first(cell); e < cells_.first(cell + 1); ++e) {
@@ -198,9 +200,9 @@ std::vector<double> thicknesses_near(const WallFlow& wall, std::size_t edge) {
     return near;
 }
 
-/// Gives each edge the running median of the thicknesses. Vorticity that errors of the solution make outside of the layer
-/// hides the end of it above single edges, which then is found at a hundred times the distance, or not at all. Source:
-/// J. W. Tukey, Exploratory Data Analysis (1977), chapter 7.
+/// Gives each edge the running median of the thicknesses. Vorticity that errors of the solution make outside of the
+/// layer hides the end of it above single edges, which then is found at a hundred times the distance, or not at all.
+/// Source: J. W. Tukey, Exploratory Data Analysis (1977), chapter 7.
 void smooth_thicknesses(WallFlow& wall) {
     std::vector<double> medians;
     for (std::size_t i = 0; i < wall.size(); ++i) {

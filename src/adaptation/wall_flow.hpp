@@ -33,14 +33,14 @@ using WallFlow = std::vector<WallFlowEdge>;
 
 /// Returns the flow along all walls.
 ///
-/// Friction is the velocity in the cell on the wall over its distance: such cells are to lie within the viscous sublayer.
-/// The boundary layer ends where the vorticity w at the distance n from the wall no longer changes the velocity u that it has
-/// induced so far: where n w < 0.02 u, with u the integral of w from the wall on, which unlike the speed tends to a
-/// constant outside of the layer whatever the pressure does there. Thicknesses are running medians along the wall. Source:
-/// P. R. Spalart, J. H. Watmuff, J. Fluid Mech. 249 (1993), section 2.
+/// Friction is the velocity in the cell on the wall over its distance: such cells are to lie within the viscous
+/// sublayer. The boundary layer ends where the vorticity w at the distance n from the wall no longer changes the
+/// velocity u that it has induced so far: where n w < 0.02 u, with u the integral of w from the wall on, which unlike
+/// the speed tends to a constant outside of the layer whatever the pressure does there. Thicknesses are running medians
+/// along the wall. Source: P. R. Spalart, J. H. Watmuff, J. Fluid Mech. 249 (1993), section 2.
 ///
-/// The mean velocity over the far field is the free stream's. Throws OptionError where the components are no fields of the
-/// solution, and where the mesh has no walls or no far field.
+/// The mean velocity over the far field is the free stream's. Throws OptionError where the components are no fields of
+/// the solution, and where the mesh has no walls or no far field.
 std::vector<WallFlow> find_wall_flow(const Solution& solution, const WallFlowOptions& options);
 
 }  // namespace lamina::adaptation

@@ -10,8 +10,8 @@
 
 namespace lamina::app {
 
-/// Returns the round that a folder holds; nothing where it was not finished. Throws UsageError where it is of other options
-/// than these digits stand for.
+/// Returns the round that a folder holds; nothing where it was not finished. Throws UsageError where it is of other
+/// options than these digits stand for.
 std::optional<AdaptRound> read_round(const std::filesystem::path& folder, const std::string& digits);
 
 /// Writes the record of a finished round into its folder. Throws IoError.

@@ -38,8 +38,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Gives the cells of a mesh that OpenFOAM has numbered anew the regions that they have in another order. Their shapes do not
-/// tell stretched triangles from those of the layer.
+/// Gives the cells of a mesh that OpenFOAM has numbered anew the regions that they have in another order. Their shapes
+/// do not tell stretched triangles from those of the layer.
 void copy_regions(const Mesh& mesh, Mesh& numbered_anew) {
     SolutionField layer{"layer", true, {}};
     for (const Region region : mesh.region) layer.values.push_back(region == Region::layer ? 1 : 0);
@@ -118,8 +118,8 @@ private:
     double aim_ = 0;
 };
 
-/// The rounds of one call: those that are done already, and those that it makes. Fingerprints tell whether a round is of
-/// the same options.
+/// The rounds of one call: those that are done already, and those that it makes. Fingerprints tell whether a round is
+/// of the same options.
 class AdaptLoop {
 public:
     AdaptLoop(const AdaptSettings& settings, const MeshCase& mesh_case, const AdaptSolver& solver, SignalGuard& guard)

@@ -118,7 +118,8 @@ std::string values_of(const CLI::Option& option) {
 }
 
 /// Throws UsageError where an option that wants a value is followed by the name of an option of the same command, or by
-/// nothing. CLI11 would take that name for the value, and the next value for an input, and so it would with the word behind
+/// nothing. CLI11 would take that name for the value, and the next value for an input, and so it would with the word
+/// behind
 /// --report=, an input that the report would replace. Numbers such as -5, and - for standard streams, are no names. Arguments
 /// behind -- are not looked at.
 void require_values(const CLI::App& app, const std::vector<std::string>& arguments) {

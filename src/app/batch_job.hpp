@@ -21,9 +21,9 @@ struct MeshTemplate {
     explicit MeshTemplate(const std::string& file);
 };
 
-/// Makes and writes the mesh of a job, and returns its record, also where it fails. `reference`: the template; null: there is
-/// none. `digits`: the fingerprint of the job. `jobs`: how many run at a time, and share the memory that is free. `strict`:
-/// whether warnings make it fail.
+/// Makes and writes the mesh of a job, and returns its record, also where it fails. `reference`: the template; null:
+/// there is none. `digits`: the fingerprint of the job. `jobs`: how many run at a time, and share the memory that is
+/// free. `strict`: whether warnings make it fail.
 Json run_job(const BatchJob& job, const MeshTemplate* reference, const std::string& digits, unsigned jobs, bool strict);
 
 }  // namespace lamina::app

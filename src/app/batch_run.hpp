@@ -36,10 +36,10 @@ struct BatchOutcome {
     std::size_t failed = 0;  ///< number of those that failed
 };
 
-/// Runs the jobs, each on as many threads as its case asks for, else on one. An earlier journal counts: jobs that it has
-/// with the same options and the same input are not run again, unless files that they wrote are missing or have changed.
-/// A job that fails is recorded with its error and does not stop the others. Throws IoError where journal or table cannot be
-/// written.
+/// Runs the jobs, each on as many threads as its case asks for, else on one. An earlier journal counts: jobs that it
+/// has with the same options and the same input are not run again, unless files that they wrote are missing or have
+/// changed. A job that fails is recorded with its error and does not stop the others. Throws IoError where journal or
+/// table cannot be written.
 BatchOutcome run_batch(const std::vector<BatchJob>& jobs, const BatchSettings& settings);
 
 }  // namespace lamina::app

@@ -59,7 +59,8 @@ OptionValue value_of(const toml::node& node, const std::string& origin, bool are
     throw UsageError(origin + ": must be a number, a string, true, false or an array of strings");
 }
 
-/// Returns the position behind the TOML string that begins at `at`, or where it is not closed, behind its line or the text.
+/// Returns the position behind the TOML string that begins at `at`, or where it is not closed, behind its line or the
+/// text.
 std::size_t end_of_string(std::string_view text, std::size_t at) {
     const char quote = text[at];
     const bool multi_line = text.substr(at).starts_with(std::string(3, quote));
@@ -75,8 +76,8 @@ std::size_t end_of_string(std::string_view text, std::size_t at) {
     return text.size();
 }
 
-/// Throws InputError where a key has more parts ("a.b.c") than any could have. The library makes a table of each part and
-/// destroys nested tables by recursion, which exhausts the stack; what brackets nest it limits itself.
+/// Throws InputError where a key has more parts ("a.b.c") than any could have. The library makes a table of each part
+/// and destroys nested tables by recursion, which exhausts the stack; what brackets nest it limits itself.
 void require_shallow_keys(std::string_view text, const std::filesystem::path& file) {
     constexpr std::size_t max_dots = 8;
     constexpr std::string_view ends_key = "\n=,[]{}";

@@ -10,9 +10,9 @@
 
 namespace lamina::app {
 
-/// Reads a case file. Paths in it are relative to its folder. The preset, if one is given, replaces that of the file; the
-/// file's other options go over it. Throws IoError where it cannot be read, InputError where it is no TOML, UsageError
-/// (with file, line and key) for unknown keys and values out of range.
+/// Reads a case file. Paths in it are relative to its folder. The preset, if one is given, replaces that of the file;
+/// the file's other options go over it. Throws IoError where it cannot be read, InputError where it is no TOML,
+/// UsageError (with file, line and key) for unknown keys and values out of range.
 MeshCase read_case_file(const std::filesystem::path& file, const std::optional<std::string>& preset = {},
                         bool has_reynolds = false);
 

@@ -79,7 +79,8 @@ void require_angles(const QualitySummary& isotropic, double min_angle_deg, Short
 void run_check(const CheckSettings& settings) {
     require_format(settings.mesh, settings.format, "--input-format");
     const std::string name = input_name(settings.mesh);
-    // A third of the memory is left to the mesh itself, of which large files keep in memory what the system has room for.
+    // A third of the memory is left to the mesh itself, of which large files keep in memory what the system has room
+    // for.
     const std::size_t memory = with_default_limits(settings.limits).max_memory_bytes.value_or(SIZE_MAX);
     StoredMesh stored =
         read_stored_mesh(settings.mesh, {.format = settings.format, .max_bytes_in_memory = memory / 4, .curved = true});

@@ -21,8 +21,8 @@ struct CheckSettings {
     bool json = false;               ///< whether the result is printed as JSON
 };
 
-/// Checks the mesh and prints the result. Throws MeshError where the mesh is not valid or lacks what is required, and the
-/// errors of readers.
+/// Checks the mesh and prints the result. Throws MeshError where the mesh is not valid or lacks what is required, and
+/// the errors of readers.
 void run_check(const CheckSettings& settings);
 
 }  // namespace lamina::app

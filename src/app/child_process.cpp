@@ -86,8 +86,8 @@ void become(char* const* arguments, const char* folder, const char* log) {
     ::execv(arguments[0], arguments);
 }
 
-/// Starts a program and returns its process. Throws IoError where that fails. fork() stands here in place of posix_spawn(),
-/// which can change folders since version 2.29 of the C library alone.
+/// Starts a program and returns its process. Throws IoError where that fails. fork() stands here in place of
+/// posix_spawn(), which can change folders since version 2.29 of the C library alone.
 pid_t start(const std::vector<char*>& arguments, const fs::path& folder, const fs::path& log) {
     const auto refuse = [&](int error) {
         throw IoError(arguments.front(), std::string("cannot be run: ") + std::strerror(error));

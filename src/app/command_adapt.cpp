@@ -31,8 +31,8 @@ struct AdaptArguments {
     GivenOptions mesh;
 };
 
-/// Returns the force that is to be found well; nothing where it is the fields. Throws UsageError where there is no adjoint
-/// solution of it.
+/// Returns the force that is to be found well; nothing where it is the fields. Throws UsageError where there is no
+/// adjoint solution of it.
 std::optional<AdjointGoal> goal_of(const AdaptArguments& arguments, const MeshCase& mesh_case) {
     const std::string& goal = arguments.goal;
     if (goal == "fields") return {};

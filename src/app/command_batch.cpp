@@ -155,8 +155,8 @@ std::vector<RunFile> require_different_files(const std::vector<BatchJob>& jobs, 
     return files.take();
 }
 
-/// Creates the folders of files that do not exist, such as one for each input, and returns them, inner ones before outer
-/// ones. Throws where a file certainly cannot be written.
+/// Creates the folders of files that do not exist, such as one for each input, and returns them, inner ones before
+/// outer ones. Throws where a file certainly cannot be written.
 std::vector<std::filesystem::path> prepare_folders(const std::vector<BatchJob>& jobs,
                                                    const std::vector<RunFile>& files) {
     std::vector<std::filesystem::path> created;

@@ -1,5 +1,5 @@
-// The command line as commands declare it. CLI11 reads it; its headers take more time to compile than most commands, so few
-// sources include them.
+// The command line as commands declare it. CLI11 reads it; its headers take more time to compile than most commands, so
+// few sources include them.
 #pragma once
 
 #include <cstddef>
@@ -50,8 +50,8 @@ void run_with(CLI::App& command, std::function<void()> run);
 /// Sets what help prints at its end.
 void set_footer(CLI::App& command, const std::string& text);
 
-/// Adds an option, with its names in the form of CLI11 ("-o,--output"), or an argument ("MESH"). `value` receives what is
-/// given: a text, a number, an optional one, or a list.
+/// Adds an option, with its names in the form of CLI11 ("-o,--output"), or an argument ("MESH"). `value` receives what
+/// is given: a text, a number, an optional one, or a list.
 template <class Value>
 AddedOption add_option(CLI::App& command, const std::string& names, Value& value, const std::string& help);
 /// Adds an option whose value may be left out: `text` is empty then, and has no value where the option is not given.

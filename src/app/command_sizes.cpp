@@ -37,7 +37,8 @@ struct SizesArguments {
     std::map<std::string, std::string> options;  ///< values by the names of option_table<SolutionSizeOptions>()
 };
 
-/// Returns what is known of the flow along walls, by the conditions of a case. Throws UsageError where it has no Reynolds number.
+/// Returns what is known of the flow along walls, by the conditions of a case. Throws UsageError where it has no
+/// Reynolds number.
 WallFlowOptions wall_flow_of(const std::string& velocity, const MeshCase& mesh_case) {
     const CaseOptions options = options_with_files(mesh_case);
     const ReferenceConditions conditions =

@@ -1,5 +1,5 @@
-// A run that makes a family of similar meshes, for a study of convergence: what `lamina family` and `lamina case` have in
-// common.
+// A run that makes a family of similar meshes, for a study of convergence: what `lamina family` and `lamina case` have
+// in common.
 #pragma once
 
 #include <functional>

@@ -22,8 +22,8 @@ std::string text_of(std::uint64_t hash);
 std::string fingerprint(MeshCase mesh_case);
 
 /// Calls read() with what a command has recorded in a file of a folder, and returns true; false where there is no such
-/// folder. `kind`: what the folder holds, "round" or "angle". Throws UsageError where the folder has no record, or one with
-/// other digits ("fingerprint"), and InputError where read() does not find what it looks for.
+/// folder. `kind`: what the folder holds, "round" or "angle". Throws UsageError where the folder has no record, or one
+/// with other digits ("fingerprint"), and InputError where read() does not find what it looks for.
 bool read_record(const std::filesystem::path& file, const std::string& kind, const std::string& digits,
                  const std::function<void(const Json&)>& read);
 

@@ -50,15 +50,16 @@ double write_outputs(const MeshCase& mesh_case, const MeshDestination& destinati
 /// Makes the mesh, writes it and the files beside it, and prints warnings and the summary.
 void run_mesh(const MeshCase& mesh_case, const MeshDestination& destination);
 
-/// Says what the mesh of a case will be, for `lamina mesh --dry-run`. Of the files of the case it writes the report alone.
+/// Says what the mesh of a case will be, for `lamina mesh --dry-run`. Of the files of the case it writes the report
+/// alone.
 void forecast_mesh_of_case(const MeshCase& mesh_case);
 
-/// Makes a mesh for `lamina mesh --stream`, which writes it while it is made. Throws UsageError for outputs that need the
-/// whole mesh.
+/// Makes a mesh for `lamina mesh --stream`, which writes it while it is made. Throws UsageError for outputs that need
+/// the whole mesh.
 void stream_mesh_of_case(const MeshCase& mesh_case, const MeshDestination& destination);
 
-/// Collective: does so for several processes, of which each writes the pieces that it has made. With --stream the pieces
-/// wait on the disk.
+/// Collective: does so for several processes, of which each writes the pieces that it has made. With --stream the
+/// pieces wait on the disk.
 void share_mesh_of_case(const MeshCase& mesh_case, const MeshDestination& destination, Ranks& ranks);
 
 /// Throws UsageError where the case asks for a mesh that is written while it is made: for commands that need all of it.

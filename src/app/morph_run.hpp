@@ -26,8 +26,8 @@ struct MorphSettings {
     std::string report;               ///< JSON file; empty: none
 };
 
-/// Moves the mesh, writes it and prints the summary. Throws UsageError unless the settings say in one way where the walls
-/// go, and the errors of the stages.
+/// Moves the mesh, writes it and prints the summary. Throws UsageError unless the settings say in one way where the
+/// walls go, and the errors of the stages.
 void run_morph(const MorphSettings& settings);
 
 }  // namespace lamina::app

@@ -30,8 +30,8 @@ struct MorphSequence {
     std::vector<RunFile> outputs;
 };
 
-/// Throws UsageError for texts that are no turns, and where the output neither holds "{step}" nor is a folder for OpenFOAM
-/// or, with that format, for SU2.
+/// Throws UsageError for texts that are no turns, and where the output neither holds "{step}" nor is a folder for
+/// OpenFOAM or, with that format, for SU2.
 MorphSequence plan_sequence(const SequenceArguments& arguments, const std::string& output, const WriteOptions& options);
 /// Writes the meshes, and returns a report for each time. Throws what morph() throws, with the time.
 Json write_sequence(const MorphMap& map, const MorphSequence& sequence, const MorphOptions& options);

@@ -15,8 +15,8 @@ struct Hint {
     bool empty() const { return name.empty() && advice.empty(); }
 };
 
-/// Returns what other programs or earlier versions mean by the word, if it is a word of theirs. `word` may have hyphens in
-/// front.
+/// Returns what other programs or earlier versions mean by the word, if it is a word of theirs. `word` may have hyphens
+/// in front.
 Hint hint_for_other_word(const std::string& command, const std::string& word);
 
 /// Returns the option of a command that a word probably means: the one that other programs call so, or else the one

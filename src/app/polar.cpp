@@ -16,8 +16,8 @@ namespace lamina::app {
 
 namespace {
 
-/// A layer that leaves the wall behind this share of its side is taken for attached: at trailing edges that of potential
-/// flow always does.
+/// A layer that leaves the wall behind this share of its side is taken for attached: at trailing edges that of
+/// potential flow always does.
 constexpr double attached_share = 0.95;
 
 /// Returns the element with the longest sides.
@@ -34,8 +34,8 @@ double transition_on(const std::vector<FlowPoint>& side, const Box& box) {
     return turbulent == side.end() ? 1 : (turbulent->at.x - box.lower.x) / box.width();
 }
 
-/// Returns whether all layers are attached up to the last part of their walls. Bubbles, behind which a layer comes back, count
-/// where that is said.
+/// Returns whether all layers are attached up to the last part of their walls. Bubbles, behind which a layer comes
+/// back, count where that is said.
 bool is_attached(const Flow& flow, bool bubbles_count) {
     for (const ElementFlow& element : flow.elements)
         for (const auto* side : {&element.upper, &element.lower}) {

@@ -42,9 +42,9 @@ struct FlowPolar {
 /// Returns what the rows of a polar of these bodies have in common.
 PolarConditions polar_conditions(const Geometry& geometry, const ReferenceConditions& reference);
 
-/// Returns the polar of the flow before the mesh at the angles of the options (FlowConditions::alphas), find_flows(). Where
-/// layers do not displace the flow, rows whose flow leaves a wall ahead of the trailing edge are not steady: that method is none
-/// for separated flow.
+/// Returns the polar of the flow before the mesh at the angles of the options (FlowConditions::alphas), find_flows().
+/// Where layers do not displace the flow, rows whose flow leaves a wall ahead of the trailing edge are not steady: that
+/// method is none for separated flow.
 FlowPolar flow_polar(Geometry geometry, const CaseOptions& options, const TransitionOptions& transition = {});
 
 /// Returns the rows for people.

@@ -98,7 +98,8 @@ private:
     }
     fs::path folder_of(double alpha) const { return settings_.folder / fmt::format("{}{}", folder_prefix, alpha); }
 
-    /// Returns the digits of all that an angle depends on. One mesh serves all, so that it is the range as a whole, too.
+    /// Returns the digits of all that an angle depends on. One mesh serves all, so that it is the range as a whole,
+    /// too.
     std::string digits_of(double alpha) const {
         return text_of(hashed(no_text, fmt::format("{}\n{}", digits_, alpha)));
     }
@@ -125,8 +126,8 @@ private:
         if (!case_.quiet) std::fputs(fmt::format("lamina: {}\n", text).c_str(), stderr);
     }
 
-    /// Solves at an angle in a folder of another name, which gets the name of the angle in the end, with ".failed" where the
-    /// solver fails.
+    /// Solves at an angle in a folder of another name, which gets the name of the angle in the end, with ".failed"
+    /// where the solver fails.
     SolvedAngle solve(double alpha) {
         if (!mesh_) make_mesh();
         const fs::path folder = settings_.folder / fmt::format("{}{}", part_prefix, ::getpid()),
@@ -157,8 +158,8 @@ private:
         return text;
     }
 
-    /// Writes the case of an angle, which begins with the flow of the last steady one, or from rest where that cannot be
-    /// read.
+    /// Writes the case of an angle, which begins with the flow of the last steady one, or from rest where that cannot
+    /// be read.
     void write_case(double alpha, const fs::path& folder) {
         MeshCase of_angle = case_;
         of_angle.options.conditions.alpha_deg = alpha;

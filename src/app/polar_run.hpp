@@ -21,10 +21,10 @@ struct PolarSettings {
 FlowPolar run_polar_of_flow(const PolarSettings& settings, const MeshCase& mesh_case,
                             const TransitionOptions& transition);
 
-/// Returns the polar by a solver, on one mesh that serves all angles. Each angle has a folder FOLDER/alpha_N with its case,
-/// which appears once it is complete, with row.json; angles that are there are kept. Each begins with the flow of the last
-/// one that was steady, or from rest where that cannot be read. An angle at which the solver fails is a row that says so,
-/// and its folder alpha_N.failed stays until the angle is tried again. Throws as run_adapt().
+/// Returns the polar by a solver, on one mesh that serves all angles. Each angle has a folder FOLDER/alpha_N with its
+/// case, which appears once it is complete, with row.json; angles that are there are kept. Each begins with the flow of
+/// the last one that was steady, or from rest where that cannot be read. An angle at which the solver fails is a row
+/// that says so, and its folder alpha_N.failed stays until the angle is tried again. Throws as run_adapt().
 FlowPolar run_polar_of_solver(const PolarSettings& settings, MeshCase mesh_case, AdaptSolver& solver);
 
 }  // namespace lamina::app

@@ -42,8 +42,8 @@ std::vector<RunFile> files_of_output(const std::string& output, const WriteOptio
 /// Returns the files in a folder; none where it is no folder.
 std::vector<RunFile> files_in(const std::filesystem::path& folder, const std::string& role);
 
-/// Returns the files of a mesh that is read: those that its format consists of. The format is the one of this name or, if
-/// that is empty, the one that the name of the mesh tells.
+/// Returns the files of a mesh that is read: those that its format consists of. The format is the one of this name or,
+/// if that is empty, the one that the name of the mesh tells.
 std::vector<RunFile> files_of_mesh(const std::string& mesh, const std::string& format);
 
 /// Returns the files that a run reads: its inputs, the case file that names them, and the background mesh.

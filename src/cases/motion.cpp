@@ -2,7 +2,8 @@
 //
 // pimpleFoam of OpenFOAM v1912 takes no points of given times: its motion solvers find the inner points from patches.
 // Every point of a mesh that is one cell thick is on its patch `frontAndBack`, though, and such a patch may have
-// displacements that are read at given times, uniformInterpolatedDisplacement. So all vertices go where morph() has them.
+// displacements that are read at given times, uniformInterpolatedDisplacement. So all vertices go where morph() has
+// them.
 #include <lamina/solver_case.hpp>
 
 #include <algorithm>
@@ -29,7 +30,8 @@ namespace {
 
 constexpr const char* mesh_format = "openfoam";
 
-/// Returns the files of a moving case beside the mesh and the times. The solution of its equations is that of cases in time.
+/// Returns the files of a moving case beside the mesh and the times. The solution of its equations is that of cases in
+/// time.
 std::vector<SolverCaseFile> moving_case_files() {
     std::vector<SolverCaseFile> files;
     for (const Template& file : templates()) {

@@ -132,8 +132,8 @@ void add_medium(const CaseFlow& flow, Words& words) {
         condition(flow.wall_functions ? "compressible::alphatWallFunction" : "fixedValue", "uniform 0");
 }
 
-/// Adds how the solver steps towards a steady state. In supersonic flow Courant numbers of 20 diverge, and so do corrections
-/// within a step or a pressure that is not relaxed.
+/// Adds how the solver steps towards a steady state. In supersonic flow Courant numbers of 20 diverge, and so do
+/// corrections within a step or a pressure that is not relaxed.
 void add_steps(const CaseFlow& flow, Words& words) {
     const bool local = is_supersonic(flow);
     words["BOUNDED"] = local ? "" : "bounded ";
@@ -211,7 +211,8 @@ void add_turbulence(const CaseFlow& flow, Words& words) {
                                           : condition("fixedValue", "uniform 0");
 }
 
-/// Adds what the adjoint solution needs. Its convection takes the flow's scheme; that of its turbulence is of first order.
+/// Adds what the adjoint solution needs. Its convection takes the flow's scheme; that of its turbulence is of first
+/// order.
 void add_adjoint(const CaseFlow& flow, Words& words) {
     const bool of_lift = flow.adjoint == AdjointGoal::lift;
     words["GOAL"] = of_lift ? "lift" : "drag";

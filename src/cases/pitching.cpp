@@ -1,7 +1,7 @@
 // Cases of SU2 whose mesh pitches as a whole.
 //
-// SU2 turns all vertices by itself, the far field included: cells keep their shapes at any angle, and in a uniform stream
-// a far field that is turned is as good as one at rest.
+// SU2 turns all vertices by itself, the far field included: cells keep their shapes at any angle, and in a uniform
+// stream a far field that is turned is as good as one at rest.
 #include <lamina/solver_case.hpp>
 
 #include <algorithm>

@@ -68,8 +68,8 @@ std::string boundaries(const CaseFlow& flow, double pressure) {
     return sections;
 }
 
-/// Returns the velocity at the beginning, in one direction: that of the stream and, for flow that sheds vortices, of a gust
-/// across it in the middle of the chord.
+/// Returns the velocity at the beginning, in one direction: that of the stream and, for flow that sheds vortices, of a
+/// gust across it in the middle of the chord.
 std::string initial_velocity(const CaseFlow& flow, double along, double across) {
     if (!flow.time) return fmt::format("{}", flow.velocity * along);
     constexpr double share = 0.3;  // of the speed

@@ -177,8 +177,8 @@ double exit_angle(const Mesh& mesh, const std::vector<std::string>& walls, doubl
     return along.x > 0 ? core::atan2_reproducible(along.y, along.x) * 180 / core::pi : 0;
 }
 
-/// Returns the row of blades that a mesh with periodic borders is a part of. Throws MeshError where the mesh has no inlet
-/// and outlet.
+/// Returns the row of blades that a mesh with periodic borders is a part of. Throws MeshError where the mesh has no
+/// inlet and outlet.
 std::optional<BladeRow> row_of(const Mesh& mesh, const CaseFlow& flow) {
     const auto [pair, mismatch] = mesh::find_periodic_pair(mesh.points, mesh.markers);
     if (mismatch) throw MeshError(mismatch->reason, mismatch->at);

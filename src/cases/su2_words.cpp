@@ -36,8 +36,8 @@ double exit_mach(double mach, double alpha_deg, double exit_deg) {
     return high;
 }
 
-/// Returns the conditions at the inlet, the outlet and both borders of a row: total ones and the direction of the flow, the
-/// static pressure, and the way from one border to the other.
+/// Returns the conditions at the inlet, the outlet and both borders of a row: total ones and the direction of the flow,
+/// the static pressure, and the way from one border to the other.
 std::string row_conditions(const CaseFlow& flow, const BladeRow& row) {
     // Sutherland's law, as SU2 has it for air.
     constexpr double viscosity = 1.716e-5, at_temperature = 273.15, constant = 110.4;
@@ -136,8 +136,8 @@ Words su2_words(const CaseFlow& flow) {
                                             intensity)
                                   : laminar ? ""
                                             : "SA_OPTIONS= NONE";
-    // A limiter stalls where there is no shock. Beyond the low Mach numbers Roe's scheme needs no correction, and limits by
-    // the changes of an edge in 0.05 lengths (V. Venkatakrishnan, J. Comput. Phys. 118 (1995)).
+    // A limiter stalls where there is no shock. Beyond the low Mach numbers Roe's scheme needs no correction, and
+    // limits by the changes of an edge in 0.05 lengths (V. Venkatakrishnan, J. Comput. Phys. 118 (1995)).
     words["SPEED_OPTIONS"] = flow.mach <= largest_low_mach
                                  ? "LOW_MACH_CORR= YES\nSLOPE_LIMITER_FLOW= NONE"
                                  : "LOW_MACH_CORR= NO\nSLOPE_LIMITER_FLOW= VENKATAKRISHNAN\nVENKAT_LIMITER_COEFF= 0.05";

@@ -66,8 +66,8 @@ struct CaseFlow {
 /// Up to this Mach number no flow round a section has a shock that is worth a scheme of its own.
 inline constexpr double largest_low_mach = 0.3;
 
-/// Returns the angles of attack, in degrees, at which a case is solved one after the other, each from the flow at the one
-/// before and no more than a step away. The last one is the given one.
+/// Returns the angles of attack, in degrees, at which a case is solved one after the other, each from the flow at the
+/// one before and no more than a step away. The last one is the given one.
 std::vector<double> angles_to(double alpha_deg, double largest_step);
 
 /// Returns the angles at which Allrun solves a case: angles_to(), or that of the inlet flow of a row alone.

@@ -35,11 +35,11 @@ private:
     std::vector<std::filesystem::path> created_;
 };
 
-/// Calls write(temporary) with the name of a file in a temporary folder beside `target` (temporary_folder.hpp) and renames
-/// that file to `target`, with the owner and the permissions of the file that it replaces. Where `target` is a symbolic
-/// link, the file behind it is replaced. On any failure the temporary file is removed, an existing target stays as it was,
-/// and IoError is thrown where the file system failed; other exceptions of `write` pass through. What killed processes
-/// have left beside the target is removed.
+/// Calls write(temporary) with the name of a file in a temporary folder beside `target` (temporary_folder.hpp) and
+/// renames that file to `target`, with the owner and the permissions of the file that it replaces. Where `target` is a
+/// symbolic link, the file behind it is replaced. On any failure the temporary file is removed, an existing target
+/// stays as it was, and IoError is thrown where the file system failed; other exceptions of `write` pass through. What
+/// killed processes have left beside the target is removed.
 LAMINA_EXPORT void write_atomically(const std::filesystem::path& target,
                                     const std::function<void(const std::filesystem::path&)>& write);
 
@@ -50,13 +50,13 @@ LAMINA_EXPORT void write_files_atomically(std::span<const std::filesystem::path>
                                           const std::function<void(std::span<const std::filesystem::path>)>& write);
 
 /// Does the same for a folder: `write` fills a temporary folder, which then takes the place of `target`. An old folder
-/// of that name, or a symbolic link, is removed with all its files; both are exchanged at once where the file system can.
-/// Missing folders above it are created, and removed again on failure.
+/// of that name, or a symbolic link, is removed with all its files; both are exchanged at once where the file system
+/// can. Missing folders above it are created, and removed again on failure.
 LAMINA_EXPORT void write_folder_atomically(const std::filesystem::path& target,
                                            const std::function<void(const std::filesystem::path&)>& write);
 
-/// Creates or empties a file of this many bytes, and has the disk keep room for them, as far as the file system can. Throws
-/// IoError about the target where there is none. Writers that do not survive a full disk need this.
+/// Creates or empties a file of this many bytes, and has the disk keep room for them, as far as the file system can.
+/// Throws IoError about the target where there is none. Writers that do not survive a full disk need this.
 LAMINA_EXPORT void reserve_room(const std::filesystem::path& file, const std::filesystem::path& target,
                                 std::size_t bytes);
 

@@ -40,9 +40,10 @@ public:
 
 class ConnectedRanks;
 
-/// A PendingGather brings the bytes of all ranks to all of them while each goes on with its work: ConnectedRanks::start_all_gather()
-/// makes one on each rank. Rank 0 collects the bytes, and each rank that has got them passes them on to some others. So a
-/// rank should ask is_there() now and then; where the object ends, it waits for the bytes, whatever has happened.
+/// A PendingGather brings the bytes of all ranks to all of them while each goes on with its work:
+/// ConnectedRanks::start_all_gather() makes one on each rank. Rank 0 collects the bytes, and each rank that has got
+/// them passes them on to some others. So a rank should ask is_there() now and then; where the object ends, it waits
+/// for the bytes, whatever has happened.
 class LAMINA_EXPORT PendingGather {
 public:
     PendingGather(const PendingGather&) = delete;
@@ -74,7 +75,8 @@ class LAMINA_EXPORT ConnectedRanks : public Ranks {
 public:
     /// Collective: sets the counter that all ranks share to 0.
     void reset_counter();
-    /// Returns the counter and adds 1 to it, at once for all ranks. Any thread may call it, and no rank waits for another.
+    /// Returns the counter and adds 1 to it, at once for all ranks. Any thread may call it, and no rank waits for
+    /// another.
     std::uint64_t next_number();
     /// Returns whether a rank has failed since the counter was set to 0. Any thread may call it, and no rank waits for
     /// another.
@@ -85,16 +87,16 @@ public:
     /// Joins the bytes of two ranks, those of the lower one first.
     using Join = std::function<std::string(std::string_view, std::string_view)>;
     /// Collective: returns on rank 0 what `join` makes of the bytes of all ranks; nothing elsewhere. Ranks join them
-    /// pairwise, so that none calls `join` more often than the logarithm of their number. It does not matter to the result
-    /// of `join` which bytes are joined first.
+    /// pairwise, so that none calls `join` more often than the logarithm of their number. It does not matter to the
+    /// result of `join` which bytes are joined first.
     std::string reduce(std::string bytes, const Join& join);
     /// Collective: returns the bytes of all ranks, in their order, on all of them.
     std::vector<std::string> all_gather(std::string_view bytes);
     /// Returns the bytes of the first ranks, in their order, on all of these. So many of them call it, and no other
     /// rank. Nobody asks whether a rank has failed, and one that has must call it still.
     std::vector<std::string> all_gather_among(unsigned members, std::string_view bytes);
-    /// Gives all ranks the bytes of all of them, and waits for nobody. All ranks call it. Nobody asks whether a rank has
-    /// failed, and one that has must call it still. Other collective functions are to be called once it has ended.
+    /// Gives all ranks the bytes of all of them, and waits for nobody. All ranks call it. Nobody asks whether a rank
+    /// has failed, and one that has must call it still. Other collective functions are to be called once it has ended.
     std::unique_ptr<PendingGather> start_all_gather(std::string_view bytes);
     /// Collective: returns on each rank the bytes that rank 0 has for it. The argument of other ranks does not count.
     std::string scatter(const std::vector<std::string>& bytes);
@@ -103,8 +105,8 @@ public:
     std::vector<std::string> exchange(const std::vector<std::string>& bytes);
     /// Collective: returns the bytes of rank 0.
     std::string broadcast(std::string_view bytes);
-    /// Collective: opens a file, or creates it, for all ranks to write to. Throws IoError about the target on ranks that
-    /// cannot open it.
+    /// Collective: opens a file, or creates it, for all ranks to write to. Throws IoError about the target on ranks
+    /// that cannot open it.
     std::unique_ptr<SharedFile> open_file(const std::filesystem::path& file, const std::filesystem::path& target);
 
     [[noreturn]] void fail(ExitCode code, const std::string& line) override;
@@ -123,8 +125,8 @@ protected:
     virtual std::vector<std::string> do_exchange(const std::vector<std::string>& bytes) = 0;
     /// Returns the bytes of rank `from`.
     virtual std::string do_broadcast(std::string_view bytes, unsigned from) = 0;
-    /// Sends bytes to one rank, which receives them in the order in which they were sent. Does not wait for it. Any thread
-    /// may call it, and the next two.
+    /// Sends bytes to one rank, which receives them in the order in which they were sent. Does not wait for it. Any
+    /// thread may call it, and the next two.
     virtual void do_send(unsigned to, std::string_view bytes) = 0;
     /// Returns whether bytes of one rank are there that this one has not received yet.
     virtual bool do_has_bytes(unsigned from) = 0;

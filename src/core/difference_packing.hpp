@@ -12,8 +12,8 @@
 
 namespace lamina::core {
 
-/// Puts numbers by their differences from the one before: a bit where they are equal, three where they differ by 1, five
-/// where they differ by 2 or 3. These are the Elias gamma codes of the differences, those of either sign in turns.
+/// Puts numbers by their differences from the one before: a bit where they are equal, three where they differ by 1,
+/// five where they differ by 2 or 3. These are the Elias gamma codes of the differences, those of either sign in turns.
 /// Source: P. Elias, Universal codeword sets and representations of the integers, IEEE Trans. Inf. Theory 21 (1975).
 class DifferencePacker {
 public:

@@ -9,8 +9,8 @@
 
 namespace lamina::core {
 
-/// The numbers below n, each in a set of its own at first. Source: R. E. Tarjan, J. ACM 22 (1975), with the paths halved
-/// as by Tarjan and van Leeuwen (1984).
+/// The numbers below n, each in a set of its own at first. Source: R. E. Tarjan, J. ACM 22 (1975), with the paths
+/// halved as by Tarjan and van Leeuwen (1984).
 class DisjointSets {
 public:
     explicit DisjointSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), std::uint32_t{0}); }

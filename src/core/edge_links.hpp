@@ -8,8 +8,8 @@
 
 namespace lamina::core {
 
-/// Edge i of triangle t of a list: 4 t + i. Where nothing else is said, edge i leads from vertex i to the next one. A list has
-/// less than 2^30 triangles.
+/// Edge i of triangle t of a list: 4 t + i. Where nothing else is said, edge i leads from vertex i to the next one. A
+/// list has less than 2^30 triangles.
 using EdgeLink = std::uint32_t;
 /// Stands where there is no neighbour.
 inline constexpr EdgeLink no_link = std::numeric_limits<EdgeLink>::max();

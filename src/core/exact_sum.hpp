@@ -12,8 +12,8 @@
 
 namespace lamina::core {
 
-/// The exact sum of up to 2^30 numbers: a fixed-point number wide enough for every finite double. Each of its digits holds
-/// 32 bits and leaves the other half of its word to carries.
+/// The exact sum of up to 2^30 numbers: a fixed-point number wide enough for every finite double. Each of its digits
+/// holds 32 bits and leaves the other half of its word to carries.
 class LAMINA_EXPORT ExactSum {
 public:
     /// Add a number, and all numbers of another sum. What is not finite makes the value not finite, too.
@@ -33,8 +33,8 @@ private:
     std::array<std::int64_t, digits> digits_{};  ///< digit i counts 2^(32 i - 1074)
     double not_finite_ = 0;                      ///< sum of the numbers that are not finite
 
-    /// Brings all digits into the range of 32 bits. Returns whether the sum is negative; the digits are then those of its
-    /// opposite.
+    /// Brings all digits into the range of 32 bits. Returns whether the sum is negative; the digits are then those of
+    /// its opposite.
     bool normalize();
 };
 

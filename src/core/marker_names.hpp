@@ -53,7 +53,8 @@ struct NamedMarker {
 /// than case, and is no word that a format or a solver keeps for itself; a wall does not have a name that reads as an
 /// outer boundary. Legal names stay; of several that differ by case alone, the first. Other characters become
 /// underscores, "0012" becomes "wall_0012" (far_, symmetry_, periodic_, line_ or marker_ for other kinds), and a number
-/// behind it tells those apart that have become the same. Names returned stay when they are given again with the same kinds.
+/// behind it tells those apart that have become the same. Names returned stay when they are given again with the same
+/// kinds.
 LAMINA_EXPORT std::vector<std::string> legal_marker_names(std::span<const NamedMarker> markers);
 
 /// Returns the warning that a marker has another name than it was given: "the name '0012' does not begin with a letter:

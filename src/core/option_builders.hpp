@@ -73,8 +73,8 @@ public:
         return add({name, OptionKind::number, std::move(metavar), std::move(help), range.text(), set, get});
     }
 
-    /// Adds an option that takes a number, or a range of numbers whose middle one is the number then; member(options) is a
-    /// double, and range_member(options) an optional ValueRange.
+    /// Adds an option that takes a number, or a range of numbers whose middle one is the number then; member(options)
+    /// is a double, and range_member(options) an optional ValueRange.
     template <class Member, class RangeMember>
     Option<Options>& number_or_range(const std::string& name, std::string metavar, std::string help, OptionRange range,
                                      Member member, RangeMember range_member) {
@@ -263,8 +263,8 @@ private:
     std::string group_;
     OptionTable<Options> table_;
 
-    /// Lets an option that takes a number take words, too. `set_word(options, word)` stores one, `forget_word(options)` drops it
-    /// for a number, and `word_of(options)` returns the value that stands for one, if there is one.
+    /// Lets an option that takes a number take words, too. `set_word(options, word)` stores one, `forget_word(options)`
+    /// drops it for a number, and `word_of(options)` returns the value that stands for one, if there is one.
     template <class SetWord, class ForgetWord, class WordOf>
     static Option<Options>& with_words(Option<Options>& option, OptionKind kind, SetWord set_word,
                                        ForgetWord forget_word, WordOf word_of) {

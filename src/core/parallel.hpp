@@ -23,8 +23,8 @@ LAMINA_EXPORT void parallel_for(std::size_t n, std::size_t grain,
                                 const std::function<void(std::size_t, std::size_t)>& f);
 
 /// Calls f(begin, end) for the blocks of parallel_for() and returns the results in the order of the blocks, in which
-/// callers combine them. Precondition: the result type is default-constructible. It is not bool, whose vectors have many
-/// elements in one byte, which threads cannot write at the same time.
+/// callers combine them. Precondition: the result type is default-constructible. It is not bool, whose vectors have
+/// many elements in one byte, which threads cannot write at the same time.
 template <class F>
 auto parallel_blocks(std::size_t n, std::size_t grain, F&& f) {
     using Result = decltype(f(n, n));

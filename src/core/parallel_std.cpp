@@ -1,6 +1,7 @@
-// Parallel loops and tasks on the threads of the standard library alone (LAMINA_THREADS=std). The module for browsers with
-// threads (CMake preset web-threads) needs them, since there is no oneTBB for Debian's Emscripten: 1.26 million triangles
-// take 0.14 to 0.17 s on two threads there, and 0.21 to 0.23 s on one. They also serve machines without oneTBB.
+// Parallel loops and tasks on the threads of the standard library alone (LAMINA_THREADS=std). The module for browsers
+// with threads (CMake preset web-threads) needs them, since there is no oneTBB for Debian's Emscripten: 1.26 million
+// triangles take 0.14 to 0.17 s on two threads there, and 0.21 to 0.23 s on one. They also serve machines without
+// oneTBB.
 //
 // with_threads() starts the threads of a crew, which take jobs from a list until it ends. The thread that posts a job
 // works at it, too; then it withdraws what nobody has taken, and waits for those who work at it still. While it waits

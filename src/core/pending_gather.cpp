@@ -1,5 +1,5 @@
-// Bytes of all ranks for all of them, sent from one to one, since collective functions of MPI get on only while all ranks
-// wait in them.
+// Bytes of all ranks for all of them, sent from one to one, since collective functions of MPI get on only while all
+// ranks wait in them.
 #include "core/connected_ranks.hpp"
 
 #include <algorithm>

@@ -12,9 +12,10 @@
 
 namespace lamina::core {
 
-/// Returns a whole multiple of a step next to the value, an odd function of the value. The nearer one, but for the multiple
-/// nearer to 0 the value has to be nearer than 0.41 steps: values in the middle between two, a third or a quarter of a step
-/// from one, are common. Precondition: the step is a power of two, and the value less than 2^51 steps.
+/// Returns a whole multiple of a step next to the value, an odd function of the value. The nearer one, but for the
+/// multiple nearer to 0 the value has to be nearer than 0.41 steps: values in the middle between two, a third or a
+/// quarter of a step from one, are common. Precondition: the step is a power of two, and the value less than 2^51
+/// steps.
 inline double rounded_to_multiple(double value, double step) {
     constexpr double beyond_middle = 0x1.5f06cp-4;
     // Numbers near 1.5 x 2^52 steps have no other bits than those of whole steps.
@@ -33,8 +34,8 @@ inline double power_of_two_below(double value) {
     return std::bit_cast<double>(std::bit_cast<std::uint64_t>(value) & exponent_bits);
 }
 
-/// Returns the step of coordinates on the borders of a row of blades of this pitch, of which the pitch is a multiple once it
-/// is rounded to it. Their sums with the pitch then are exact up to 4096 pitches from the origin.
+/// Returns the step of coordinates on the borders of a row of blades of this pitch, of which the pitch is a multiple
+/// once it is rounded to it. Their sums with the pitch then are exact up to 4096 pitches from the origin.
 inline double border_step(double pitch) { return 0x1p-40 * power_of_two_below(pitch); }
 
 /// Returns a place on a piece of a curve, as a share of the piece, rounded to about a thousandth of an edge, given the

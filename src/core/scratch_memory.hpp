@@ -1,5 +1,5 @@
-// Large arrays that may lie in temporary files, and large files that are read in place: the system keeps of both what it has
-// memory for.
+// Large arrays that may lie in temporary files, and large files that are read in place: the system keeps of both what
+// it has memory for.
 #pragma once
 
 #include <cassert>
@@ -15,8 +15,8 @@
 
 namespace lamina::core {
 
-/// Bytes that start as zeros, in memory or in a temporary file without a name, which vanishes with this object or with the
-/// process. Where the system has no files that can be mapped, they lie in memory.
+/// Bytes that start as zeros, in memory or in a temporary file without a name, which vanishes with this object or with
+/// the process. Where the system has no files that can be mapped, they lie in memory.
 class LAMINA_EXPORT ScratchMemory {
 public:
     ScratchMemory() = default;

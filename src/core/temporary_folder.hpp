@@ -1,9 +1,9 @@
-// Folders that hold files until these are complete and get their names: nobody else can lay anything into them, and what a
-// process that was killed leaves of them is found and cleared.
+// Folders that hold files until these are complete and get their names: nobody else can lay anything into them, and
+// what a process that was killed leaves of them is found and cleared.
 //
 // A folder is called .lamina-PROCESS-BOOT-RANDOM, of hexadecimal digits. PROCESS is a random number of the process that
-// makes it, so that a signal can clear all that this process leaves. BOOT is of the identity that Linux gives to itself when
-// it starts, so that no other machine on a network file system takes the folder for one of its own.
+// makes it, so that a signal can clear all that this process leaves. BOOT is of the identity that Linux gives to itself
+// when it starts, so that no other machine on a network file system takes the folder for one of its own.
 //
 //   .lamina-3f...-63d5be32-9a..../      mode 700; flock() keeps it while its process lives
 //     mesh.su2                          a file, under the name that it will have
@@ -44,8 +44,8 @@ void clear_folders_of_dead_processes(const std::filesystem::path& target) noexce
 /// memory from the second call on. Never throws.
 bool remove_own_temporary_folders(const char* folder) noexcept;
 
-/// Returns the names of the files and folders in a folder; none where it cannot be read. Lack of memory is an exception:
-/// std::filesystem::directory_iterator ends the process then.
+/// Returns the names of the files and folders in a folder; none where it cannot be read. Lack of memory is an
+/// exception: std::filesystem::directory_iterator ends the process then.
 std::vector<std::string> names_in(const std::filesystem::path& folder);
 
 /// Keeps other processes that use it from exchanging files beside `target` at the same time, as far as the file system

@@ -12,8 +12,8 @@
 
 namespace lamina::core {
 
-/// Returns the corners of the convex hull of points, counter-clockwise from the lexicographically smallest one. Points on
-/// its sides are left out; of points on one line the two ends remain.
+/// Returns the corners of the convex hull of points, counter-clockwise from the lexicographically smallest one. Points
+/// on its sides are left out; of points on one line the two ends remain.
 /// Source: A. M. Andrew, Another efficient algorithm for convex hulls in two dimensions, Inf. Process. Lett. 9 (1979).
 inline std::vector<Point> convex_hull(std::span<const Point> points) {
     std::vector<Point> sorted(points.begin(), points.end());
@@ -35,8 +35,8 @@ inline std::vector<Point> convex_hull(std::span<const Point> points) {
 /// Returns the longer side of the box of least area round the points, whose sides may have any direction. It turns with
 /// the points, and is that of the box along the axes for boxes along these, and nearly for slender bodies. Of boxes of
 /// equal area, as round a triangle, the one with the longest side counts. 0 where there are no points.
-/// Source: H. Freeman, R. Shapira, Determining the minimum-area encasing rectangle for an arbitrary closed curve, Commun.
-/// ACM 18 (1975): the box has a side in common with the hull.
+/// Source: H. Freeman, R. Shapira, Determining the minimum-area encasing rectangle for an arbitrary closed curve,
+/// Commun. ACM 18 (1975): the box has a side in common with the hull.
 inline double longer_side_of_tight_box(std::span<const Point> points) {
     const std::vector<Point> hull = convex_hull(points);
     const std::size_t n = hull.size();

@@ -10,14 +10,15 @@
 
 namespace lamina::core {
 
-/// Opens a file without a name in a folder, to be read and written. Returns its descriptor, or -1 with the reason in errno.
+/// Opens a file without a name in a folder, to be read and written. Returns its descriptor, or -1 with the reason in
+/// errno.
 int open_unnamed_file(const std::filesystem::path& folder);
 
 /// A temporary file without a name, which vanishes with this object or with the process.
 class LAMINA_EXPORT UnnamedFile {
 public:
-    /// Opens the file on the disk of the target, or on that of the system's temporary files where the target is a device
-    /// or standard output. Throws IoError about the target.
+    /// Opens the file on the disk of the target, or on that of the system's temporary files where the target is a
+    /// device or standard output. Throws IoError about the target.
     explicit UnnamedFile(const std::filesystem::path& target);
     ~UnnamedFile();
     UnnamedFile(const UnnamedFile&) = delete;

@@ -1,4 +1,5 @@
-// The outer region as it is cut, before its subdomains are made: all that processes need of subdomains that others refine.
+// The outer region as it is cut, before its subdomains are made: all that processes need of subdomains that others
+// refine.
 #pragma once
 
 #include <cstddef>
@@ -49,13 +50,14 @@ struct BesideCuts {
 
 /// Cuts the outer region as decouple() does, and throws what it throws. Collective where `ranks` are given: they divide
 /// the work among themselves, and each divides those lines alone that it needs for its share; throws MeshError where
-/// another process would cut another region. BesideCuts::make finds the vertices of trapezoids in Lines::gathered(): these
-/// have their ids before anything is cut. EstimatedBorder::kept tells which pieces a process may have made with it.
+/// another process would cut another region. BesideCuts::make finds the vertices of trapezoids in Lines::gathered():
+/// these have their ids before anything is cut. EstimatedBorder::kept tells which pieces a process may have made with
+/// it.
 LAMINA_EXPORT CutRegion cut_region(const OuterRegion& region, core::ConnectedRanks* ranks = nullptr,
                                    const BesideCuts& beside = {});
 
-/// Makes a subdomain from its border. Divides its lines, and estimates its work unless that is known: null. `size` is the
-/// size field of the region.
+/// Makes a subdomain from its border. Divides its lines, and estimates its work unless that is known: null. `size` is
+/// the size field of the region.
 LAMINA_EXPORT Subdomain make_subdomain(const LineBorder& border, const WorkEstimate* known, Lines& lines,
                                        const SizeField& size, const RefineOptions& refine);
 
@@ -67,8 +69,8 @@ LinesHash hash_of_lines(const Lines& lines);
 /// Throws MeshError where processes have told different hashes, which begin these texts.
 void require_same_hashes(std::span<const std::string> told, std::size_t bytes_of_hash);
 
-/// Collective: throws MeshError on rank 0 where another process has other borders. Its numbers would mean other vertices,
-/// which no check of a piece by itself can see.
+/// Collective: throws MeshError on rank 0 where another process has other borders. Its numbers would mean other
+/// vertices, which no check of a piece by itself can see.
 LAMINA_EXPORT void require_same_borders(const CutRegion& cut, core::ConnectedRanks& ranks);
 
 }  // namespace lamina::decoupling

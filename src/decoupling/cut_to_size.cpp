@@ -205,8 +205,9 @@ public:
     }
 
 private:
-    /// The share of its own work that a process keeps, whatever the others have. It is enough to do during the cuts, which
-    /// last for half as long as all pieces, and the rest is enough to make up for the time that those who cut need.
+    /// The share of its own work that a process keeps, whatever the others have. It is enough to do during the cuts,
+    /// which last for half as long as all pieces, and the rest is enough to make up for the time that those who cut
+    /// need.
     static constexpr double kept_share = 0.7;
 
     const SimpleRegions& others_;
@@ -236,8 +237,8 @@ private:
         return nullptr;
     }
 
-    /// Tells all processes these bytes, or that this one has failed, and makes pieces until all have told theirs. Throws
-    /// where one has failed.
+    /// Tells all processes these bytes, or that this one has failed, and makes pieces until all have told theirs.
+    /// Throws where one has failed.
     std::vector<std::string> tell_all(Lines& lines, const std::string& bytes, std::exception_ptr failure) {
         const std::unique_ptr<core::PendingGather> pending = ranks_.start_all_gather(failure ? std::string() : bytes);
         if (!failure) failure = failure_of([&] { make_pieces(lines, *pending); });
@@ -256,8 +257,8 @@ private:
         return result;
     }
 
-    /// Cuts the parts on one of the cutters. Rank 0 puts all results, the others that they are done. Nobody puts anything
-    /// where another cutter has failed.
+    /// Cuts the parts on one of the cutters. Rank 0 puts all results, the others that they are done. Nobody puts
+    /// anything where another cutter has failed.
     void cut_among_cutters(Lines& lines, std::vector<Part> parts, Bisection& bisection, Packer& packer) {
         packer.put(true);
         try {

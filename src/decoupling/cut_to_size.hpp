@@ -47,8 +47,8 @@ std::vector<EstimatedBorder> cut_to_size(Lines& lines, UncutRegions regions, con
                                          double pieces_target);
 
 /// Collective: returns what cut_to_size() returns. The processes divide the search for separators among themselves. The
-/// regions round the bodies are cut by the first processes; the others call `make`, if it is given, until this is done, for
-/// pieces that they keep. Precondition: all other arguments are the same everywhere.
+/// regions round the bodies are cut by the first processes; the others call `make`, if it is given, until this is done,
+/// for pieces that they keep. Precondition: all other arguments are the same everywhere.
 std::vector<EstimatedBorder> cut_to_size_together(Lines& lines, UncutRegions regions, const SizeField& size,
                                                   double pieces_target, core::ConnectedRanks& ranks,
                                                   const MakeTrapezoid& make);

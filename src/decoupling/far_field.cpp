@@ -61,8 +61,8 @@ double room_around(const Box& bodies, const FarField& far_field) {
     return room;
 }
 
-/// Returns the smallest distance of the far field from the bodies that triangles of a good shape can fill: edges of walls
-/// are up to twice as long (SpacingOptions::max_spacing), and below that angles are too small.
+/// Returns the smallest distance of the far field from the bodies that triangles of a good shape can fill: edges of
+/// walls are up to twice as long (SpacingOptions::max_spacing), and below that angles are too small.
 double least_room(const Box& bodies) { return 0.01 * core::longer_side(bodies); }
 
 /// Returns the far field with the walls that the options ask for, from upstream to downstream:

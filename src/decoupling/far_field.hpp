@@ -23,8 +23,8 @@ struct FarField {
 
     double pitch = 0;  ///< of a row of blades, between whose copies the domain ends; 0: there is none
 
-    /// Returns whether there is a wall below, and perhaps one above, or whether the domain is a part of a row. The border of
-    /// the domain then is the last one of those between which the decoupling cuts: layers may stand on it.
+    /// Returns whether there is a wall below, and perhaps one above, or whether the domain is a part of a row. The
+    /// border of the domain then is the last one of those between which the decoupling cuts: layers may stand on it.
     bool has_walls() const { return std::isfinite(floor) || pitch > 0; }
     /// Returns the box round the far field.
     LAMINA_EXPORT Box box() const;

@@ -100,8 +100,8 @@ public:
     /// Returns the id of the first vertex that was added with a line, if there is one.
     VertexId first_inside(std::uint32_t line) const { return chunk(line).first[line % chunk_size]; }
     bool is_loop(std::uint32_t line) const { return !is_in_row(line) && !at(line).loop.empty(); }
-    /// Returns whether an edge between two successive vertices has the direction of the line. Precondition: the vertices
-    /// were added with the line, or the line is no loop.
+    /// Returns whether an edge between two successive vertices has the direction of the line. Precondition: the
+    /// vertices were added with the line, or the line is no loop.
     bool runs_along(std::uint32_t line, Segment edge) const;
     /// Returns the number of vertices that were added with a line: they have successive ids.
     std::size_t own_vertices(std::uint32_t line) const { return end_of(line) - first_inside(line).index(); }
@@ -125,8 +125,8 @@ public:
     /// Copies the vertices of all lines that are divided, and those on no line, to their ids.
     void copy_points(std::span<Point> points) const;
     /// Makes one array of all vertices that are numbered, by their ids. Those of lines that are not divided yet have no
-    /// place in it until divide() gives them one. Call it again for those that are numbered later: ids stay, and so does
-    /// the array where it has room for them.
+    /// place in it until divide() gives them one. Call it again for those that are numbered later: ids stay, and so
+    /// does the array where it has room for them.
     void gather_points();
     std::span<const Point> gathered() const {
         return {reinterpret_cast<const Point*>(gathered_.data()), gathered_vertices_};

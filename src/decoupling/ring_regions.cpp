@@ -7,8 +7,8 @@ namespace lamina::decoupling {
 
 namespace {
 
-/// Returns who divides the lines round the bodies, as shares of the trapezoids beside them: those who cut there and have no
-/// trapezoids, or else the processes that have them.
+/// Returns who divides the lines round the bodies, as shares of the trapezoids beside them: those who cut there and
+/// have no trapezoids, or else the processes that have them.
 std::vector<std::size_t> shares_round_bodies(const std::vector<std::size_t>& shares, std::size_t trapezoids) {
     const auto cutters =
         static_cast<std::size_t>(std::upper_bound(shares.begin(), shares.end(), std::size_t{0}) - shares.begin() - 1);

@@ -35,13 +35,14 @@ public:
     }
     /// Says which process has which trapezoids: those from the i-th of these numbers to the next one.
     void share(const std::vector<std::size_t>& shares);
-    /// Returns whose the lines round the trapezoids are, in ascending order, once they are shared: a line belongs to the
-    /// process of the first trapezoid beside it, or one round the bodies to a process that has no trapezoids.
+    /// Returns whose the lines round the trapezoids are, in ascending order, once they are shared: a line belongs to
+    /// the process of the first trapezoid beside it, or one round the bodies to a process that has no trapezoids.
     std::span<const LineRun> runs() const { return runs_; }
     /// Returns the number of all trapezoids.
     std::size_t size() const { return end_.empty() ? 0 : end_.back(); }
 
-    /// Returns the border of a trapezoid. It begins as a loop would that was traced from the edge with the lowest number.
+    /// Returns the border of a trapezoid. It begins as a loop would that was traced from the edge with the lowest
+    /// number.
     LAMINA_EXPORT LineBorder border(std::size_t trapezoid, const Lines& lines) const;
     /// Calls f for the lines round a trapezoid.
     template <class F>

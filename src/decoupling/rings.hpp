@@ -34,9 +34,9 @@ struct Ring {
 /// two, so that neighbouring rings share junctions. There is no ring where the near-body box is the outermost one.
 std::vector<Ring> plan_rings(const RingBoxes& boxes, const SizeField& size, double pieces_target);
 
-/// Adds near-body box, rings and outermost box to the skeleton. Their lines are not divided yet. The first ones are those
-/// along the boxes: each begins at the next junction. Returns the lines along the outermost box, with the region on their
-/// left. Where a region lies beyond it, it is on their right.
+/// Adds near-body box, rings and outermost box to the skeleton. Their lines are not divided yet. The first ones are
+/// those along the boxes: each begins at the next junction. Returns the lines along the outermost box, with the region
+/// on their left. Where a region lies beyond it, it is on their right.
 std::vector<std::uint32_t> add_rings(Skeleton& skeleton, std::span<const Ring> rings, const RingBoxes& boxes,
                                      bool region_beyond);
 

@@ -1,5 +1,5 @@
-// Source: L. Linardakis, N. Chrisochoides, Graded Delaunay decoupling method for parallel guaranteed quality planar mesh
-// generation, SIAM J. Sci. Comput. 30 (2008).
+// Source: L. Linardakis, N. Chrisochoides, Graded Delaunay decoupling method for parallel guaranteed quality planar
+// mesh generation, SIAM J. Sci. Comput. 30 (2008).
 #include "decoupling/separators.hpp"
 
 #include <algorithm>

@@ -16,8 +16,8 @@ namespace lamina::decoupling {
 /// line give the same points.
 std::vector<Point> divide_separator(Point u, Point v, const SizeField& size, std::size_t min_segments = 1);
 
-/// Divides a curve, given by points near to each other, as a separator is divided, by the smaller size of both at a point and
-/// at its copy that is moved by `to_copy`. Returns the points between its ends.
+/// Divides a curve, given by points near to each other, as a separator is divided, by the smaller size of both at a
+/// point and at its copy that is moved by `to_copy`. Returns the points between its ends.
 std::vector<Point> divide_curve(std::span<const Point> curve, const SizeField& size, Point to_copy,
                                 std::size_t min_segments);
 

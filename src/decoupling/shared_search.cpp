@@ -145,9 +145,9 @@ std::vector<SearchResult> search_together(Lines& lines, std::span<const DealtBor
 
 unsigned cutting_processes(std::size_t others, unsigned processes) {
     // Few processes lose little while most of them wait, in the first rounds, and nobody waits for them while there are
-    // other pieces to make. There are 130 pieces round a body and more: fewer than eight processes would have too many of
-    // them, and of the edges between them. Where there is little else to do, or one process would have most of the work,
-    // all cut.
+    // other pieces to make. There are 130 pieces round a body and more: fewer than eight processes would have too many
+    // of them, and of the edges between them. Where there is little else to do, or one process would have most of the
+    // work, all cut.
     if (others < processes || processes < 4) return processes;
     return std::max(processes / 32, std::min(processes / 4, 8u));
 }

@@ -1,5 +1,5 @@
-// The search for separators, divided among processes: each searches some of the subdomains and tells all others where it
-// has found a separator (docs/decisions/0045).
+// The search for separators, divided among processes: each searches some of the subdomains and tells all others where
+// it has found a separator (docs/decisions/0045).
 #pragma once
 
 #include <cstddef>
@@ -46,8 +46,8 @@ struct DealtBorder {
     unsigned process;
 };
 
-/// Adds what processes tell of a border: about how much work it is, in one byte, or the ends of its separator and how many
-/// vertices that has. Who needs these divides it.
+/// Adds what processes tell of a border: about how much work it is, in one byte, or the ends of its separator and how
+/// many vertices that has. Who needs these divides it.
 void pack_result(const SearchResult& result, core::Packer& packer);
 /// Returns what pack_result() has added.
 SearchResult unpack_result(core::Unpacker& unpacker);

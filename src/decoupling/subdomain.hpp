@@ -1,6 +1,6 @@
-// The stages "decouple" and "refine": the outer region, between layers and far field, is cut into subdomains with frozen,
-// graded borders, which are refined independently. Source: J. K. Pardue, thesis (2015), chapter 5; L. Linardakis, N.
-// Chrisochoides, SIAM J. Sci. Comput. 27 (2006).
+// The stages "decouple" and "refine": the outer region, between layers and far field, is cut into subdomains with
+// frozen, graded borders, which are refined independently. Source: J. K. Pardue, thesis (2015), chapter 5; L.
+// Linardakis, N. Chrisochoides, SIAM J. Sci. Comput. 27 (2006).
 #pragma once
 
 #include <cstddef>
@@ -36,8 +36,9 @@ struct InnerLines {
     std::vector<Segment> lines;  ///< between vertices
 };
 
-/// The outer region with what decides how it is cut. `borders` are closed loops of indices into `points`, counter-clockwise
-/// round each body and its layer. If the far field has walls, the last one is the border of the domain, clockwise.
+/// The outer region with what decides how it is cut. `borders` are closed loops of indices into `points`,
+/// counter-clockwise round each body and its layer. If the far field has walls, the last one is the border of the
+/// domain, clockwise.
 struct OuterRegion {
     std::span<const Point> points;
     std::span<const std::vector<VertexId>> borders;
@@ -56,14 +57,14 @@ struct Decoupling {
     std::vector<std::vector<Segment>> inner_edges{};  ///< per line inside the region: its edges, in its direction
 };
 
-/// Cuts the outer region, between the borders of the layers and the far field, into subdomains of about equal work. They
-/// depend on the arguments alone, never on the number of threads. Throws OptionError for options out of range, and where
-/// the far field does not enclose the borders and the inner lines with some room.
+/// Cuts the outer region, between the borders of the layers and the far field, into subdomains of about equal work.
+/// They depend on the arguments alone, never on the number of threads. Throws OptionError for options out of range, and
+/// where the far field does not enclose the borders and the inner lines with some room.
 LAMINA_EXPORT Decoupling decouple(const OuterRegion& region, const RefineOptions& refine = {});
 
 /// Returns the number of triangles that the refinement of the outer region will make, by estimate, before it is cut
-/// into subdomains; lines inside it are left out. Takes a few milliseconds. Throws OptionError where the far field does not
-/// enclose the borders with some room.
+/// into subdomains; lines inside it are left out. Takes a few milliseconds. Throws OptionError where the far field does
+/// not enclose the borders with some room.
 LAMINA_EXPORT double estimate_triangles(const OuterRegion& region);
 
 /// Refines one subdomain. Throws as refine(points, segments, size, options) does.

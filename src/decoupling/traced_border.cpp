@@ -47,8 +47,8 @@ bool is_inside(const EdgeLoop& loop, Point p) {
     return inside;
 }
 
-/// Returns twice the area inside a loop. Edges that dangle occur in both directions and are left out: their terms cancel
-/// but for rounding, which would give a tree of lines an area.
+/// Returns twice the area inside a loop. Edges that dangle occur in both directions and are left out: their terms
+/// cancel but for rounding, which would give a tree of lines an area.
 double doubled_area(const EdgeLoop& loop) {
     std::vector<Segment> sorted;
     for (const std::uint32_t e : loop.loop) sorted.push_back(loop.edges[e]);

@@ -314,7 +314,8 @@ LayerPoint separated_point(const Layer& layer, double s) {
 /// Leads a separated layer through the interval, or up to where it reattaches. Returns the t where it ended. The
 /// pressure under a separated layer is that where it left the wall, so it comes back where the pressure outside falls
 /// below that: where the edge speed exceeds that of separation. The turbulent layer goes on with the shape factor that
-/// it had when it separated, and with the thickness that it has got meanwhile. Without turbulence it does not come back.
+/// it had when it separated, and with the thickness that it has got meanwhile. Without turbulence it does not come
+/// back.
 double march_separated(Layer& layer, const Interval& interval, const BoundaryLayerOptions& options) {
     if (!options.turbulent || !(interval.speed1 > layer.separation_speed)) return 1;
     double begin = 0, end = 1;

@@ -21,8 +21,8 @@ double friction_on(const std::vector<FlowPoint>& side, Point stream) {
     return force;
 }
 
-/// Returns the moment of the pressures on a side, counter-clockwise about a point. `sign` is 1 where the side follows the
-/// outline, counter-clockwise, and -1 where it goes against it.
+/// Returns the moment of the pressures on a side, counter-clockwise about a point. `sign` is 1 where the side follows
+/// the outline, counter-clockwise, and -1 where it goes against it.
 double moment_on(const std::vector<FlowPoint>& side, double sign, Point about) {
     double moment = 0;
     for (std::size_t i = 1; i < side.size(); ++i) {

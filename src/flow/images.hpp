@@ -30,8 +30,8 @@ struct Image {
     }
 };
 
-/// Returns the copies in an endless row. The sum over those at k and -k pitches falls as 1 / k^2; the last two stand for all
-/// beyond, so that what is left falls as 1 / k^3 and with the fourth power of the distance over the pitch.
+/// Returns the copies in an endless row. The sum over those at k and -k pitches falls as 1 / k^2; the last two stand
+/// for all beyond, so that what is left falls as 1 / k^3 and with the fourth power of the distance over the pitch.
 inline std::vector<Image> copies_in_row(double pitch) {
     constexpr int last = 12;
     // k^2 (1 / k^2 + 1 / (k + 1)^2 + ...) for k = last, by the Euler-Maclaurin formula

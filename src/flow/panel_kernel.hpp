@@ -75,9 +75,9 @@ inline double log_of_ratio(const SeenNode& b, const SeenNode& a) {
     return 0.5 * core::log_reproducible(b.squared_distance / a.squared_distance);
 }
 
-/// Returns 2 pi times the stream function of a panel of sources of unit strength. It needs the angle of the direction from
-/// the panel's first node to the point, measured from the panel, which must not jump along a body. `is_at_start` marks that
-/// node, where there is no such angle.
+/// Returns 2 pi times the stream function of a panel of sources of unit strength. It needs the angle of the direction
+/// from the panel's first node to the point, measured from the panel, which must not jump along a body. `is_at_start`
+/// marks that node, where there is no such angle.
 inline double source_stream_function(const SeenPanel& panel, const SeenNode& a, const SeenNode& b,
                                      double direction_angle, bool is_at_start) {
     if (is_at_start) return core::pi * panel.length;

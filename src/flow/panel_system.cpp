@@ -52,8 +52,8 @@ Body make_body(const Contour& contour, std::size_t column, Point origin, double 
     return body;
 }
 
-/// Adds to a row of the system what unit strengths at the nodes of a body give to the stream function at a point, times a
-/// factor.
+/// Adds to a row of the system what unit strengths at the nodes of a body give to the stream function at a point, times
+/// a factor.
 void add_sheet(std::span<double> row, const Body& body, Point p, double times, std::span<LoggedNode> seen) {
     const std::size_t n = body.nodes.size();
     for (std::size_t j = 0; j < n; ++j) seen[j] = see_with_log(body.nodes[j], p);
@@ -66,9 +66,9 @@ void add_sheet(std::span<double> row, const Body& body, Point p, double times, s
     }
 }
 
-/// Adds what the sheet of a body's copy, far away in a row, gives to the stream function at p: by two points of Gauss on each panel, and with
-/// logarithms of distances over the shift. The integrals of add_sheet() are differences of numbers as large as the square of
-/// the distance.
+/// Adds what the sheet of a body's copy, far away in a row, gives to the stream function at p: by two points of Gauss
+/// on each panel, and with logarithms of distances over the shift. The integrals of add_sheet() are differences of
+/// numbers as large as the square of the distance.
 void add_far_copy(std::span<double> row, const Body& body, Point p, const Image& copy) {
     const double in_square = 1 / (copy.shift * copy.shift);
     const Point from = copy.seen_from(p);
@@ -93,8 +93,8 @@ double base_stream_function(const Body& body, Point p, double direction_angle, b
            (2 * core::pi);
 }
 
-/// Adds to the rows of a body what an image of the base of another one, or of its own, gives to the stream function at its
-/// nodes.
+/// Adds to the rows of a body what an image of the base of another one, or of its own, gives to the stream function at
+/// its nodes.
 void add_base(std::vector<double>& matrix, std::size_t size, const Body& at, const Body& of, const Image& image) {
     double angle = 0;
     Point last{};
@@ -209,8 +209,8 @@ std::vector<double> make_matrix(std::span<const Body> bodies, std::span<const Im
     return matrix;
 }
 
-/// Returns the strengths in the free stream, those that each body in turn adds whose trailing edge has a unit of circulating
-/// flow round it, contrary to its Kutta condition, and those in a unit stream along y.
+/// Returns the strengths in the free stream, those that each body in turn adds whose trailing edge has a unit of
+/// circulating flow round it, contrary to its Kutta condition, and those in a unit stream along y.
 std::vector<std::vector<double>> solve_strengths(std::span<const Body> bodies, std::span<const Image> images,
                                                  Point stream) {
     const std::size_t size = system_size(bodies);
@@ -247,8 +247,8 @@ std::vector<PanelSheet> make_sheets(std::span<const Contour> contours, std::span
     return sheets;
 }
 
-/// Returns the sheets with strengths rounded to 1e-6 of the speed of the free stream: rounding errors of the system, which
-/// are smaller by far, have no part in what is made of the flow.
+/// Returns the sheets with strengths rounded to 1e-6 of the speed of the free stream: rounding errors of the system,
+/// which are smaller by far, have no part in what is made of the flow.
 std::vector<PanelSheet> rounded(std::vector<PanelSheet> sheets) {
     constexpr double step = 0x1p-20;
     for (PanelSheet& sheet : sheets)

@@ -18,9 +18,9 @@ inline constexpr double max_flow_speed = 100;
 /// free stream's speed.
 inline constexpr double max_flow_leak = 0.02;
 
-/// At the corners of a base walls have this many times the skin friction of the boundary layer. Solutions on CRM-HL have 3.8
-/// to 3.9 times as much. With less y+ is 1.1 times the request at one edge, and layers are not finer than that needs
-/// (docs/decisions/0036).
+/// At the corners of a base walls have this many times the skin friction of the boundary layer. Solutions on CRM-HL
+/// have 3.8 to 3.9 times as much. With less y+ is 1.1 times the request at one edge, and layers are not finer than that
+/// needs (docs/decisions/0036).
 inline constexpr double friction_rise_at_corners = 3.2;
 
 /// Returns the momentum thickness far behind a side, by Squire and Young. It follows from the last place where the
@@ -28,8 +28,8 @@ inline constexpr double friction_rise_at_corners = 3.2;
 /// does not.
 LAMINA_EXPORT double momentum_far_behind(const std::vector<FlowPoint>& side);
 
-/// Returns the pressure coefficient of subsonic flow of this Mach number where incompressible flow has `incompressible`,
-/// or minus infinity where the formula has none. Precondition: 0 <= mach < 1.
+/// Returns the pressure coefficient of subsonic flow of this Mach number where incompressible flow has
+/// `incompressible`, or minus infinity where the formula has none. Precondition: 0 <= mach < 1.
 /// Source: T. von Karman, J. Aeronaut. Sci. 8 (1941), after H. S. Tsien.
 LAMINA_EXPORT double compressed_pressure_coefficient(double incompressible, double mach);
 

@@ -15,12 +15,14 @@ struct OpenWake {
     double width;        ///< from one to the other across the stream
 };
 
-/// Returns the fluid at rest behind an element of this flow if it begins at least 0.16 chords wide, as behind stalled sections,
-/// bluff bodies and thick bases: NACA 0012 at a Reynolds number of 6e6 has 0.06 at 15 degrees, 0.15 at 17 and 0.2 at 18, a
-/// cylinder 0.7. What separates and reattaches, as in coves, does not count, and an estimated flow has none.
+/// Returns the fluid at rest behind an element of this flow if it begins at least 0.16 chords wide, as behind stalled
+/// sections, bluff bodies and thick bases: NACA 0012 at a Reynolds number of 6e6 has 0.06 at 15 degrees, 0.15 at 17 and
+/// 0.2 at 18, a cylinder 0.7. What separates and reattaches, as in coves, does not count, and an estimated flow has
+/// none.
 LAMINA_EXPORT std::optional<OpenWake> find_open_wake(const Flow& flow, const ElementFlow& element);
 
-/// Returns WarningCode::flow_separates about the widest of the open wakes, if any. Precondition: the flow has boundary layers.
+/// Returns WarningCode::flow_separates about the widest of the open wakes, if any. Precondition: the flow has boundary
+/// layers.
 LAMINA_EXPORT std::optional<Warning> find_wide_wake(const Flow& flow);
 
 }  // namespace lamina::flow

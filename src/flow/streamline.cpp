@@ -56,8 +56,8 @@ struct Step {
     double error;
 };
 
-/// Returns the step of this length, or nothing where the fluid is at rest on the way. The last velocity of a step is the
-/// first one of the next.
+/// Returns the step of this length, or nothing where the fluid is at rest on the way. The last velocity of a step is
+/// the first one of the next.
 std::optional<Step> try_step(const SheetVelocity& velocity, const FlowingPoint& from, double h) {
     constexpr double nearly_at_rest = 1e-3;
     constexpr double a[6][6] = {{1.0 / 5},
@@ -84,8 +84,8 @@ std::optional<Step> try_step(const SheetVelocity& velocity, const FlowingPoint& 
     return Step{p, h * length(error)};
 }
 
-/// Returns a point of a streamline rounded to 1e-9 chords. Where streamlines part, such as before a body, rounding errors
-/// would grow along them.
+/// Returns a point of a streamline rounded to 1e-9 chords. Where streamlines part, such as before a body, rounding
+/// errors would grow along them.
 Point rounded(Point p, double chord) {
     constexpr double step = 0x1p-30;
     return chord * core::rounded_to_multiples((1 / chord) * p, step);

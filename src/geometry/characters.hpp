@@ -24,8 +24,8 @@ std::string_view without_blanks(std::string_view text);
 std::string_view take_line(std::string_view& text);
 
 /// Returns a line with ASCII characters in the place of those that only look like them: spaces for no-break and other
-/// white space of Unicode or Latin-1, minus signs for dashes before digits, as word processors write them. Dashes within
-/// words and numbers ("63-012") stay.
+/// white space of Unicode or Latin-1, minus signs for dashes before digits, as word processors write them. Dashes
+/// within words and numbers ("63-012") stay.
 std::string with_plain_signs(std::string_view line);
 
 /// Returns bytes as trimmed, printable UTF-8. Bytes that are not valid UTF-8 are taken as Latin-1; control characters

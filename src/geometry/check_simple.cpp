@@ -68,7 +68,8 @@ std::string advice_on_separate_sections(const Element& e, const Element& f) {
         a.lower.x, a.upper.x);
 }
 
-/// Throws InputError for the place where two edges meet: of a point of the first one, where they belong to two elements.
+/// Throws InputError for the place where two edges meet: of a point of the first one, where they belong to two
+/// elements.
 [[noreturn]] void refuse(const OutlineEdge& first, const OutlineEdge& second, Point at, const std::string& verb) {
     const Element &e = *first.element, &f = *second.element;
     const std::string reason =

@@ -115,8 +115,8 @@ std::size_t division_length(std::string_view text) {
     return 0;
 }
 
-/// Returns the name of a column without its unit, its division by the chord, and the characters that join its parts: "x"
-/// of "x [m]", "x/c" and "x_mm", "yupper" of "y_upper/c" and "y/c_upper".
+/// Returns the name of a column without its unit, its division by the chord, and the characters that join its parts:
+/// "x" of "x [m]", "x/c" and "x_mm", "yupper" of "y_upper/c" and "y/c_upper".
 std::string plain_name(const std::string& name) {
     std::string_view plain = trimmed(std::string_view(name).substr(0, name.find_first_of("[(")));
     if (const std::size_t joint = plain.find_last_of("_ "); joint != std::string_view::npos && joint > 0)
@@ -139,8 +139,8 @@ ColumnRole role_of(const std::string& plain) {
     return found == named_roles.end() ? ColumnRole::unknown : found->role;
 }
 
-/// Names that mean something else beside each other than alone: yt and yb are top and bottom, and yo and yu are oben and
-/// unten, German for above and below.
+/// Names that mean something else beside each other than alone: yt and yb are top and bottom, and yo and yu are oben
+/// and unten, German for above and below.
 void read_pairs(const std::vector<std::string>& plain, std::vector<ColumnRole>& roles) {
     const auto place = [&](std::string_view name) {
         return static_cast<std::size_t>(std::find(plain.begin(), plain.end(), name) - plain.begin());

@@ -144,8 +144,8 @@ public:
         if (document.column_names.size() == left_.size()) roles_ = column_roles(document.column_names);
     }
 
-    /// Decides which columns are read: two, or those of a table. Throws InputError where more are left. `is_complete` says
-    /// whether no row beside them may hold counts, so that they may be a table.
+    /// Decides which columns are read: two, or those of a table. Throws InputError where more are left. `is_complete`
+    /// says whether no row beside them may hold counts, so that they may be a table.
     void choose(bool is_complete) {
         if (choose_by_names() || read_table_by_names()) return;
         leave_out_counter();

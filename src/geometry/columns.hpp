@@ -16,7 +16,8 @@ struct ColumnReading {
     std::optional<SurfaceTable> table;  ///< where the rows are a table of both surfaces
 };
 
-/// Sets the coordinates of the points of a section from the columns of their rows. This evidence decides, in this order:
+/// Sets the coordinates of the points of a section from the columns of their rows. This evidence decides, in this
+/// order:
 /// - A header names one column x, and one y (or z where none is y). Where it names x, y and z, a constant one is left
 ///   out.
 /// - A header names the columns of a table that read_named_table() knows.

@@ -141,8 +141,8 @@ private:
         titles_ += std::exchange(label_, {});
     }
 
-    /// Throws InputError where commas separate numbers in some rows and are decimal signs in others. Commas within quotes
-    /// and between semicolons are clear in each row.
+    /// Throws InputError where commas separate numbers in some rows and are decimal signs in others. Commas within
+    /// quotes and between semicolons are clear in each row.
     void require_one_meaning_of_commas(const TextRow& row) {
         if (row.has_comma_separators) comma_separated_line_ = row.line;
         if (row.has_decimal_commas && !row.has_separators) decimal_comma_line_ = row.line;

@@ -101,8 +101,8 @@ struct CoordinateDocument {
     std::string fraction_text;      ///< the start of that row, which may have been meant as coordinates
 };
 
-/// Divides the rows of a text into blocks and sections. Throws InputError, which names `file`, for damaged coordinates and
-/// rows of more than `max_columns` numbers, and as RowReader does.
+/// Divides the rows of a text into blocks and sections. Throws InputError, which names `file`, for damaged coordinates
+/// and rows of more than `max_columns` numbers, and as RowReader does.
 CoordinateDocument read_blocks(std::string_view text, const std::string& file);
 
 }  // namespace lamina::geometry

@@ -46,8 +46,8 @@ Field make_field(std::string text) {
     return field;
 }
 
-/// Returns whether a text is a number where the comma is the decimal sign: "12", "-0,5", "1,0e-3", "-,5". Whether ",5" is
-/// one cannot be said without other numbers.
+/// Returns whether a text is a number where the comma is the decimal sign: "12", "-0,5", "1,0e-3", "-,5". Whether ",5"
+/// is one cannot be said without other numbers.
 bool fits_decimal_comma(std::string_view s) {
     std::size_t i = !s.empty() && (s[0] == '+' || s[0] == '-') ? 1 : 0;
     const auto skip_digits = [&] {

@@ -32,13 +32,15 @@ struct FieldList {
     bool has_decimal_commas = false;    ///< commas were read as decimal points
 };
 
-/// How many fields of a line are looked at. No row of a table has as many; a file without line breaks would have millions.
+/// How many fields of a line are looked at. No row of a table has as many; a file without line breaks would have
+/// millions.
 inline constexpr std::size_t max_fields = 1000;
 
-/// Splits a line into fields, of which there are at most `max_fields`. White space separates fields; so does one comma or semicolon with white space round it.
-/// Two separators in a row enclose an empty field. Quotes round a field, or round the whole line, are removed. Where
-/// all fields fit, commas are decimal signs instead. Numbers are decimal, correctly rounded and independent of the
-/// locale; Fortran's D exponents and a leading + are understood. A unit of length may stand behind each number.
+/// Splits a line into fields, of which there are at most `max_fields`. White space separates fields; so does one comma
+/// or semicolon with white space round it. Two separators in a row enclose an empty field. Quotes round a field, or
+/// round the whole line, are removed. Where all fields fit, commas are decimal signs instead. Numbers are decimal,
+/// correctly rounded and independent of the locale; Fortran's D exponents and a leading + are understood. A unit of
+/// length may stand behind each number.
 FieldList read_fields(std::string_view line);
 
 /// Splits a line into names of columns, in lower case and without quotes: at semicolons, commas or tabs where there are

@@ -57,8 +57,8 @@ bool is_separator(const TextRow& row);
 TextRow read_row(std::string_view line, std::size_t number);
 
 /// Reads the rows of a text one after the other, since all of them together would take many times its size: one for
-/// each line, or several for a line that lists points in brackets. Lines end in LF, CR LF or CR. A copy reads on from the
-/// same place.
+/// each line, or several for a line that lists points in brackets. Lines end in LF, CR LF or CR. A copy reads on from
+/// the same place.
 class RowReader {
 public:
     /// The text must outlive the reader, and its copies. Throws InputError, which names `file`, for UTF-16.

@@ -88,8 +88,8 @@ bool starts_json(std::string_view text) {
     return first != text.end() && (*first == '[' || *first == '{');
 }
 
-/// Returns whether a text is JSON that lists all x, then all y. Points have two or three numbers; a list of pairs stands
-/// in several lines.
+/// Returns whether a text is JSON that lists all x, then all y. Points have two or three numbers; a list of pairs
+/// stands in several lines.
 bool is_json_of_axes(std::string_view text) {
     if (!starts_json(text)) return false;
     const std::vector<InnerList> lists = first_inner_lists(text);
@@ -97,7 +97,8 @@ bool is_json_of_axes(std::string_view text) {
     return lists.size() < 3 || (lists[0].numbers > 3 && has_object(text));
 }
 
-/// Returns whether a text that cannot be read is JSON that lists no points, or each number of them on a line of its own.
+/// Returns whether a text that cannot be read is JSON that lists no points, or each number of them on a line of its
+/// own.
 bool is_json_without_points(std::string_view text) {
     if (!starts_json(text)) return false;
     const std::vector<InnerList> lists = first_inner_lists(text);

@@ -12,8 +12,8 @@ namespace lamina::geometry {
 inline constexpr std::string_view naca_prefix = "naca:";
 
 /// Names elements as the options say. Without names a single element is called "airfoil" and several take the stems of
-/// their files. Names that no marker may have are changed, with a warning. Throws UsageError for a wrong number of names
-/// and for repeated names.
+/// their files. Names that no marker may have are changed, with a warning. Throws UsageError for a wrong number of
+/// names and for repeated names.
 void name_elements(std::vector<Element>& elements, const GeometryOptions& options);
 
 /// The name that stands for all elements in options.

@@ -47,9 +47,9 @@ private:
 /// Six points in a row, the two turning points in the middle of them.
 using Stretch = std::array<Point, 6>;
 
-/// Returns how much a stretch bends at its inner points, in radians where that is little; nothing where it is not smooth
-/// there. It may keep a corner at its second point or its last but one, where it had one that turned the same way, as far
-/// as that can be said.
+/// Returns how much a stretch bends at its inner points, in radians where that is little; nothing where it is not
+/// smooth there. It may keep a corner at its second point or its last but one, where it had one that turned the same
+/// way, as far as that can be said.
 std::optional<double> bending(const std::vector<Point>& stretch, const Turn& corner_before, const Turn& corner_behind) {
     const auto keeps = [](const Turn& before, const Turn& now) {
         return before.is_corner() && now.is_corner() && (before.reverses(cos_15_deg) || !before.opposes(now));

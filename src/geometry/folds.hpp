@@ -27,9 +27,10 @@ struct Fold {
     FoldMend mend = FoldMend::none;
 };
 
-/// Mends the first fold of an outline that is narrow, or at most 1 % of its extent long, where its two turning points are
-/// neighbours and the outline is smooth without one of them, or with the two exchanged. Where both would do, they are exchanged if that bends the outline little more.
-/// The ends of an open outline stay. Returns nothing where no fold can be mended.
+/// Mends the first fold of an outline that is narrow, or at most 1 % of its extent long, where its two turning points
+/// are neighbours and the outline is smooth without one of them, or with the two exchanged. Where both would do, they
+/// are exchanged if that bends the outline little more. The ends of an open outline stay. Returns nothing where no fold
+/// can be mended.
 std::optional<Fold> mend_fold(std::vector<SourcePoint>& points, bool closed);
 
 /// Returns the folds of an outline that are so narrow that walls are not drawn like that on purpose, in its order.

@@ -52,8 +52,8 @@ AxisStretch longest_at(double y, const SourcePoints& points) {
     return longest;
 }
 
-/// Returns a closed outline as a run without the side that closes it: the points on the lowest or the highest ordinate, if
-/// these reach from end to end, else the longest edge.
+/// Returns a closed outline as a run without the side that closes it: the points on the lowest or the highest ordinate,
+/// if these reach from end to end, else the longest edge.
 ///
 ///       _________               _________
 ///     /           \           /           \       The run begins and ends where that side does, and has none of the

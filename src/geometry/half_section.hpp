@@ -14,7 +14,8 @@ namespace lamina::geometry {
 std::optional<double> symmetry_line(const std::vector<SourcePoint>& points);
 
 /// Returns whether a closed outline, whose first point is not repeated, is one half of a symmetric section that a
-/// straight side closes: this side, of one edge or several, runs along x from end to end, and a round nose is square to it.
+/// straight side closes: this side, of one edge or several, runs along x from end to end, and a round nose is square to
+/// it.
 bool is_closed_half(const std::vector<SourcePoint>& points);
 
 /// Returns the outline of a symmetric section of which `points` are one half, open or closed by edges on the line of

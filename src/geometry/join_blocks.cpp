@@ -61,8 +61,8 @@ public:
         rest_.grow_to(end);
     }
 
-    /// Returns whether the first point belongs to no outline: the rest is a loop that it does not help to close, and the
-    /// step from it is long.
+    /// Returns whether the first point belongs to no outline: the rest is a loop that it does not help to close, and
+    /// the step from it is long.
     bool starts_with_lone_point() const {
         const PointSpan run = whole_.points();
         if (!starts_alone_ || run.size() < 4) return false;

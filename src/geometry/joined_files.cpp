@@ -35,7 +35,8 @@ std::optional<std::vector<SourcePoint>> joined(PointRun a, PointRun b) {
     if (!are_two_surfaces(a, b)) std::reverse(b.begin(), b.end());
     if (!are_two_surfaces(a, b)) return std::nullopt;
     const double start_gap = distance(a.front().at, b.front().at), end_gap = distance(a.back().at, b.back().at);
-    // The outline is closed where the gap is wider, at the tail; a section that is sharp there has its tail at larger x.
+    // The outline is closed where the gap is wider, at the tail; a section that is sharp there has its tail at larger
+    // x.
     const bool from_nose = start_gap != end_gap ? start_gap < end_gap : a.front().at.x < a.back().at.x;
     if (!from_nose) {
         std::reverse(a.begin(), a.end());

@@ -11,8 +11,8 @@ namespace lamina::geometry {
 
 /// Reads the rows of a text. Text rows that consist of a label and two numbers or more become rows of numbers where the
 /// text has at least three of them and no other rows of numbers, but perhaps one before them, which counts them. Labels
-/// that stay the same for three rows or more, all along, are those of surfaces or elements, and remain as TextRow::label;
-/// others number or name single points.
+/// that stay the same for three rows or more, all along, are those of surfaces or elements, and remain as
+/// TextRow::label; others number or name single points.
 class LabelledRowReader {
 public:
     /// Reads the rows of a text as RowReader does. Throws InputError as RowReader::next() does.

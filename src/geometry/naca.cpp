@@ -94,8 +94,8 @@ std::string advice_on_family(const std::string& name) {
     return "";
 }
 
-/// Returns a warning where the digits of a five-digit section are also those of one of the 6-series, whose name is often
-/// written without its dash.
+/// Returns a warning where the digits of a five-digit section are also those of one of the 6-series, whose name is
+/// often written without its dash.
 std::optional<Warning> ambiguity_of(const std::string& digits) {
     if (digits.size() != 5 || !is_of_six_series(digits)) return std::nullopt;
     const double lift = 0.15 * (digits[0] - '0');

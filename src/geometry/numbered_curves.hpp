@@ -1,5 +1,5 @@
-// Files of curves: as many curves of as many points as the first row says, or rows that begin with the numbers of a curve
-// and of a point on it.
+// Files of curves: as many curves of as many points as the first row says, or rows that begin with the numbers of a
+// curve and of a point on it.
 #pragma once
 
 #include <string>
@@ -14,9 +14,9 @@ namespace lamina::geometry {
 /// them. Returns notes; none where the section is no such file.
 std::vector<std::string> divide_counted_curves(CoordinateSection& section);
 
-/// Divides a section into the curves of ANSYS DesignModeler's coordinates: rows begin with the numbers of a curve and of a
-/// point on it, which counts from the same number on each curve. A row of the number of a curve and 0 closes it. Returns
-/// notes; none where the section is no such file.
+/// Divides a section into the curves of ANSYS DesignModeler's coordinates: rows begin with the numbers of a curve and
+/// of a point on it, which counts from the same number on each curve. A row of the number of a curve and 0 closes it.
+/// Returns notes; none where the section is no such file.
 std::vector<std::string> divide_numbered_curves(CoordinateSection& section);
 
 /// Removes blocks that a title above them calls camber line, mean line or chord line, where others are left. Returns

@@ -11,8 +11,8 @@
 
 namespace lamina::geometry {
 
-/// Returns the outlines of an airfoil file, halves mirrored where the options ask for it. Throws InputError, which names
-/// `file`.
+/// Returns the outlines of an airfoil file, halves mirrored where the options ask for it. Throws InputError, which
+/// names `file`.
 std::vector<RawOutline> read_outlines(std::string_view text, const std::string& file, const GeometryOptions& options);
 
 /// Returns the elements of an airfoil file. Throws InputError, which names `file`.

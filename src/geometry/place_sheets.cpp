@@ -78,8 +78,8 @@ std::optional<Foot> foot_near(const Geometry& bodies, Point end, double length, 
     return foot;
 }
 
-/// Cuts the first part of a curve off, which lies inside a body. Returns where it leaves the wall of that; nothing where it
-/// begins on the wall.
+/// Cuts the first part of a curve off, which lies inside a body. Returns where it leaves the wall of that; nothing
+/// where it begins on the wall.
 std::optional<Foot> cut_inside(const Geometry& bodies, std::size_t body, const Element& sheet,
                                std::vector<Point>& curve, double rounding) {
     const std::vector<Point>& p = bodies.elements[body].points;
@@ -192,8 +192,8 @@ struct NamedOutline {
     }
 };
 
-/// Returns the vertex of the wall behind a sheet: so far beside its foot that the edges of both sides do not meet, in the
-/// wedge between the sheet and the wall that ends at `after`.
+/// Returns the vertex of the wall behind a sheet: so far beside its foot that the edges of both sides do not meet, in
+/// the wedge between the sheet and the wall that ends at `after`.
 Point end_beside_foot(const std::vector<Point>& curve, Point after, double gap) {
     const Point foot = curve[0], along = unit(curve[1] - foot), wall = unit(after - foot);
     const double turn = core::angle_between(along, wall), wedge = turn > 0 ? turn : turn + 2 * core::pi;
@@ -250,8 +250,8 @@ void require_own_name(const Geometry& bodies, const Element& sheet) {
     }
 }
 
-/// Returns where a sheet stands on a wall, if it does, and lets its curve begin there. Throws InputError where it stands on
-/// walls at both ends.
+/// Returns where a sheet stands on a wall, if it does, and lets its curve begin there. Throws InputError where it
+/// stands on walls at both ends.
 std::optional<Foot> foot_of(const Geometry& bodies, const Element& sheet, std::vector<Point>& curve) {
     const std::optional<Foot> first = stand(bodies, sheet, curve);
     std::reverse(curve.begin(), curve.end());

@@ -66,8 +66,8 @@ struct Layout {
     std::size_t dimensions = 2;
 };
 
-/// Returns the layout whose dimensions stand from `start` on, `indices` of them for each of `blocks`, if the numbers fit
-/// it and all blocks are curves.
+/// Returns the layout whose dimensions stand from `start` on, `indices` of them for each of `blocks`, if the numbers
+/// fit it and all blocks are curves.
 std::optional<Layout> layout_of(const std::vector<double>& values, std::size_t start, std::size_t blocks,
                                 std::size_t indices) {
     if (blocks > values.size() / indices || start + blocks * indices > values.size()) return std::nullopt;

@@ -17,7 +17,8 @@ struct PointList {
 };
 
 /// Returns the points of X0,Y0,X1,Y1[,...], two at least, or of a file with the two coordinates of one in each line, in
-/// which empty lines, comments and titles do not count. Throws UsageError for other lists, InputError and IoError for files.
+/// which empty lines, comments and titles do not count. Throws UsageError for other lists, InputError and IoError for
+/// files.
 LAMINA_EXPORT PointList parse_point_list(const std::string& text);
 /// Returns the text of such points: the name of the file, if there is one.
 LAMINA_EXPORT std::string point_list_text(std::span<const Point> points, const std::string& file);

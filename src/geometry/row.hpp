@@ -10,8 +10,8 @@
 
 namespace lamina::geometry {
 
-/// The room between the outlines of a blade and those of the copy below it, in columns of equal width over the extent of
-/// the blade in x.
+/// The room between the outlines of a blade and those of the copy below it, in columns of equal width over the extent
+/// of the blade in x.
 struct Channel {
     double left = 0;           ///< x where the first column begins
     double width = 0;          ///< of a column
@@ -27,8 +27,8 @@ struct Channel {
 /// Returns the channel below the blade with these outlines.
 LAMINA_EXPORT Channel channel_below(std::span<const std::vector<Point>> outlines, double pitch, std::size_t columns);
 
-/// Returns how far those copies are along y that a blade can see: its neighbours, and of several elements all that are as
-/// near as the configuration is high. Empty without a row.
+/// Returns how far those copies are along y that a blade can see: its neighbours, and of several elements all that are
+/// as near as the configuration is high. Empty without a row.
 LAMINA_EXPORT std::vector<double> shifts_in_row(const Geometry& geometry);
 
 /// Returns a point moved along y.

@@ -282,7 +282,8 @@ private:
     double noise_;
     std::vector<double> t_, penalty_;
 
-    /// Lowers the penalty until stretches of points move no farther than their noise, first alike, then where they still do.
+    /// Lowers the penalty until stretches of points move no farther than their noise, first alike, then where they
+    /// still do.
     std::vector<Point> fit(const std::vector<double>& t) {
         constexpr int max_halvings = 160, max_rounds = 12;
         constexpr std::size_t share =

@@ -20,17 +20,18 @@ struct PointSequence {
 /// length of its own. Empty where the points are too few to be certain of it, where their roughness may belong to the
 /// shape, or where the noise turns the outline by less than a flow solver overlooks.
 ///
-/// The estimate is the median absolute fourth difference across the outline. Noise is white if differences at two and three
-/// times the distance give the same estimate, since shapes grow with the distance, and if the signs of second differences
-/// are correlated as those of white noise: by -0.46 and 0.11 at one and two places apart, and not at all beyond.
+/// The estimate is the median absolute fourth difference across the outline. Noise is white if differences at two and
+/// three times the distance give the same estimate, since shapes grow with the distance, and if the signs of second
+/// differences are correlated as those of white noise: by -0.46 and 0.11 at one and two places apart, and not at all
+/// beyond.
 /// Source: J. Rice, Bandwidth choice for nonparametric regression, Ann. Statist. 12 (1984) (differences); G. E. P. Box,
 /// D. A. Pierce, J. Amer. Statist. Assoc. 65 (1970) (whiteness); N. Blomqvist, Ann. Math. Statist. 21 (1950) (signs).
 std::optional<double> white_noise(const PointSequence& sequence);
 
 /// Returns the indices, ascending, of points at which the outline has a corner in spite of white noise of this standard
-/// deviation: straight lines fitted to points on both sides differ by more than 10 degrees, by more than noise explains,
-/// and by far more than those beside them, as at a corner and not at a round nose. The more a corner turns, the fewer
-/// points it takes.
+/// deviation: straight lines fitted to points on both sides differ by more than 10 degrees, by more than noise
+/// explains, and by far more than those beside them, as at a corner and not at a round nose. The more a corner turns,
+/// the fewer points it takes.
 /// Source: H.-G. Mueller, Change-points in nonparametric regression analysis, Ann. Statist. 20 (1992).
 std::vector<std::size_t> find_corners_above_noise(const PointSequence& sequence, double noise);
 

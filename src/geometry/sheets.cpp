@@ -120,8 +120,8 @@ std::vector<SheetRange> sheet_ranges(const Element& element) {
 
 namespace {
 
-/// Returns the curve of a sheet that its second side describes, which has more vertices than the first one. Vertices that
-/// both sides have are those of the first side.
+/// Returns the curve of a sheet that its second side describes, which has more vertices than the first one. Vertices
+/// that both sides have are those of the first side.
 std::vector<Point> curve_of_second_side(const std::vector<Point>& p, const SheetRange& range) {
     const std::size_t n = p.size();
     std::vector<Point> curve;

@@ -19,24 +19,24 @@
 
 namespace lamina::geometry {
 
-/// Coordinates are typed with few digits: ends of sheets and lines stand on what is nearer than this share of its length, of
-/// the body for sheets, and of the end's edge for lines at borders of the domain.
+/// Coordinates are typed with few digits: ends of sheets and lines stand on what is nearer than this share of its
+/// length, of the body for sheets, and of the end's edge for lines at borders of the domain.
 inline constexpr double typed_rounding = 1e-3;
 
 /// Returns the sheet that a text NAME:PLACE of the option means, and its text.
 Sheet parse_sheet(const std::string& text);
 std::string sheet_text(const Sheet& sheet);
 
-/// Throws OptionError for sheets without a legal name of their own, or without length, and for those that are closed, cross
-/// themselves or run back on themselves.
+/// Throws OptionError for sheets without a legal name of their own, or without length, and for those that are closed,
+/// cross themselves or run back on themselves.
 void validate_sheets(std::span<const Sheet> sheets);
 
 /// Returns a sheet as an element whose points are its curve, open, for transformations; is_open_sheet() knows it.
 Element open_sheet(const Sheet& sheet);
 bool is_open_sheet(const Element& element);
 
-/// Puts open sheets among bodies: each is an element of its own, or a part of the outline of the body that it stands on.
-/// Throws InputError for those that cross or join bodies, or other sheets.
+/// Puts open sheets among bodies: each is an element of its own, or a part of the outline of the body that it stands
+/// on. Throws InputError for those that cross or join bodies, or other sheets.
 Geometry with_sheets(Geometry bodies, std::span<const Element> sheets);
 
 /// Returns whether an element is a sheet by itself.
@@ -45,7 +45,8 @@ bool is_sheet(const Element& element);
 /// Returns the distance of both sides of a sheet with this curve.
 LAMINA_EXPORT double sheet_gap(std::span<const Point> curve);
 
-/// The vertices of a sheet in an outline: from `first` to `tip` and on to `last`, counted on beyond the number of points.
+/// The vertices of a sheet in an outline: from `first` to `tip` and on to `last`, counted on beyond the number of
+/// points.
 struct SheetRange {
     std::size_t first, tip, last;
 
@@ -60,8 +61,8 @@ struct FoldedVertex {
     bool is_across = false;
 };
 
-/// Makes both sides of all sheets of an element alike again, whose vertices have been chosen anew: like the side that has
-/// more of them, or like the first one. Returns where the vertices come from. Lines and corners follow.
+/// Makes both sides of all sheets of an element alike again, whose vertices have been chosen anew: like the side that
+/// has more of them, or like the first one. Returns where the vertices come from. Lines and corners follow.
 LAMINA_EXPORT std::vector<FoldedVertex> fold_again(Element& element);
 
 /// Returns the bodies as the flow before the mesh sees them: sheets are thin sections, and those on walls are left out.

@@ -31,9 +31,9 @@ std::optional<SurfaceTable> read_surface_table(PointSpan rows, const std::array<
 std::optional<SurfaceTable> read_paired_table(PointSpan rows, const std::array<std::size_t, 4>& columns);
 
 /// Reads the columns of `rows` as the header names them: x with upper and lower ordinates; x and y of each surface; x
-/// with thickness and camber, which give the surfaces at camber +- thickness / 2; x with thickness alone, of a symmetric
-/// section. Rows run either way. Returns nothing where the roles are not those of a table. Throws InputError, which
-/// names `file`, where x turns back.
+/// with thickness and camber, which give the surfaces at camber +- thickness / 2; x with thickness alone, of a
+/// symmetric section. Rows run either way. Returns nothing where the roles are not those of a table. Throws InputError,
+/// which names `file`, where x turns back.
 std::optional<SurfaceTable> read_named_table(const PointRun& rows, const std::vector<ColumnRole>& roles,
                                              const std::string& file);
 

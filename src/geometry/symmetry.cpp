@@ -180,8 +180,8 @@ void add_above(const Element& element, double y, std::vector<Element>& result) {
     }
 }
 
-/// Puts a vertex on the line in place of one above that is the end of an edge across it. The outline there is a parabola
-/// through the next two points and their images, unless there is a corner between.
+/// Puts a vertex on the line in place of one above that is the end of an edge across it. The outline there is a
+/// parabola through the next two points and their images, unless there is a corner between.
 Point end_between(const PartPoint& first, const PartPoint& second, double y) {
     const double a = (first.at.y - y) * (first.at.y - y), b = (second.at.y - y) * (second.at.y - y);
     if (first.is_corner || !(b > a)) return {first.at.x, y};

@@ -17,12 +17,13 @@ inline bool is_cut(const Geometry& geometry) {
                        [](const Element& element) { return element.is_mirrored; });
 }
 
-/// Returns the bodies that a line of symmetry cuts with all others and, behind these, the images of the others: what the
-/// flow meets. Elements are in their order and names end in "_image". The geometry itself where the line cuts no body.
+/// Returns the bodies that a line of symmetry cuts with all others and, behind these, the images of the others: what
+/// the flow meets. Elements are in their order and names end in "_image". The geometry itself where the line cuts no
+/// body.
 LAMINA_EXPORT Geometry with_images(Geometry geometry);
 
-/// Makes the lower parts of mirrored elements (Element::is_mirrored), whose vertices have been chosen anew, images of the
-/// upper ones again, with vertices on the line exactly. Their corners follow; no other features are set.
+/// Makes the lower parts of mirrored elements (Element::is_mirrored), whose vertices have been chosen anew, images of
+/// the upper ones again, with vertices on the line exactly. Their corners follow; no other features are set.
 LAMINA_EXPORT void mirror_again(Geometry& geometry);
 
 }  // namespace lamina::geometry

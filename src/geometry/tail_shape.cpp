@@ -25,8 +25,8 @@ namespace {
 /// Sides that meet farther behind the base than this many chords are parallel, about.
 constexpr double max_extension = 0.25;
 
-/// An outline from the upper corner of its trailing edge over both sides to the lower one, without points of the base. A
-/// sharp trailing edge is both corners.
+/// An outline from the upper corner of its trailing edge over both sides to the lower one, without points of the base.
+/// A sharp trailing edge is both corners.
 struct OpenOutline {
     std::vector<SourcePoint> points;
     Point leading_edge, trailing_edge;

@@ -53,8 +53,8 @@ std::vector<std::pair<Point, double>> divided_at(const std::vector<Point>& curve
     return points;
 }
 
-/// Returns the outline of a section round a sheet from its nose to its tail, with the thickness of NACA sections but for the
-/// curvature behind the nose: sqrt(s) (1 - s).
+/// Returns the outline of a section round a sheet from its nose to its tail, with the thickness of NACA sections but
+/// for the curvature behind the nose: sqrt(s) (1 - s).
 std::vector<Point> section_round(const std::vector<Point>& curve, double thickness) {
     constexpr std::size_t steps = 48;
     constexpr double most_of_shape = 0.3849;  // of sqrt(s) (1 - s), at s = 1/3

@@ -18,8 +18,8 @@ std::vector<double> turning_angles(std::span<const Point> outline);
 /// shorter than half of the body and in its rear half. Of several bases the rearmost counts.
 void find_trailing_edge(std::span<const Point> outline, OutlineFeatures& features);
 
-/// The vertices of a counter-clockwise outline at its trailing edge: where its upper side starts, and where its lower one
-/// ends. They are one where the trailing edge is no base.
+/// The vertices of a counter-clockwise outline at its trailing edge: where its upper side starts, and where its lower
+/// one ends. They are one where the trailing edge is no base.
 struct TailCorners {
     std::size_t upper, lower;
 };

@@ -1,5 +1,5 @@
-// The outlines become segments of one constrained triangulation, in which crossings are vertices. The triangles that any
-// body winds round are the union, and the outer loops of its border are the outlines.
+// The outlines become segments of one constrained triangulation, in which crossings are vertices. The triangles that
+// any body winds round are the union, and the outer loops of its border are the outlines.
 #include "geometry/unite.hpp"
 
 #include <algorithm>

@@ -48,8 +48,8 @@ constexpr const CgnsElement& cgns_element(unsigned corners, unsigned order) {
     return cgns_plane_elements[0];
 }
 
-/// Returns the place in the order of CurvedNodes of node k of an element. They differ within quadrilaterals of order 4, whose
-/// inner nodes run round their border in CGNS:
+/// Returns the place in the order of CurvedNodes of node k of an element. They differ within quadrilaterals of order 4,
+/// whose inner nodes run round their border in CGNS:
 ///
 ///        22--21--20        19--22--18
 ///        |        |        |        |

@@ -394,8 +394,9 @@ std::string answer_for(const fs::path& file, bool whole) {
     return "+";
 }
 
-/// Tries a file, and sends the answer to the parent process. Sends nothing where the library ends the process, or memory is
-/// lacking for the answer. No exception leaves the child process, which would go on with the work of its parent.
+/// Tries a file, and sends the answer to the parent process. Sends nothing where the library ends the process, or
+/// memory is lacking for the answer. No exception leaves the child process, which would go on with the work of its
+/// parent.
 [[noreturn]] void try_in_child(const fs::path& file, bool whole, int pipe) noexcept {
     const rlimit no_core{};
     ::setrlimit(RLIMIT_CORE, &no_core);
@@ -430,9 +431,9 @@ std::string answer_of_child(const fs::path& file, bool whole) {
     return answer;
 }
 
-/// Throws InputError for a file that the library cannot open. It ends the process where sizes in a file are damaged, and
-/// unpacks texts and lists of any size, so that a child process tries it before. The arrays of HDF5 files are checked by
-/// the library, those of ADF files by nobody.
+/// Throws InputError for a file that the library cannot open. It ends the process where sizes in a file are damaged,
+/// and unpacks texts and lists of any size, so that a child process tries it before. The arrays of HDF5 files are
+/// checked by the library, those of ADF files by nobody.
 void require_sound(const fs::path& file) {
     const bool adf = is_adf(file);
     const std::string answer = answer_of_child(file, adf);

@@ -16,16 +16,17 @@ unsigned order_of_cell(unsigned corners, std::size_t nodes);
 /// Returns what a reader of straight cells says.
 std::string curved_cells_refused(unsigned order);
 
-/// Tells the nodes of curved cells from vertices. Before, all are points of the mesh, and the lists of nodes number these;
-/// afterwards they are as CurvedNodes says. Returns false where a node is the corner of one cell and no corner of another.
+/// Tells the nodes of curved cells from vertices. Before, all are points of the mesh, and the lists of nodes number
+/// these; afterwards they are as CurvedNodes says. Returns false where a node is the corner of one cell and no corner
+/// of another.
 bool separate_nodes(CurvedMesh& mesh);
 
 /// Does what orient_markers() does, with the nodes of edges, and what separate_nodes() does where cells are curved.
 bool orient_and_separate(CurvedMesh& mesh);
 
-/// Returns the places in the order of CurvedNodes of the nodes of a Lagrange quadrilateral in that of VTK, which runs along
-/// the last two edges from their far ends, and through the inner nodes row by row. Lines and triangles have one order in
-/// both. Source: VTK, vtkHigherOrderQuadrilateral.
+/// Returns the places in the order of CurvedNodes of the nodes of a Lagrange quadrilateral in that of VTK, which runs
+/// along the last two edges from their far ends, and through the inner nodes row by row. Lines and triangles have one
+/// order in both. Source: VTK, vtkHigherOrderQuadrilateral.
 std::vector<std::size_t> vtk_order_of_quad(unsigned order);
 
 }  // namespace lamina::io

@@ -62,7 +62,8 @@ public:
         expect(")");
         if (!next().empty()) fail("something follows the list");
     }
-    /// Reads numbers behind "N (" in the machine's own bytes, as binary files have them, without the bracket that follows.
+    /// Reads numbers behind "N (" in the machine's own bytes, as binary files have them, without the bracket that
+    /// follows.
     std::vector<double> binary_numbers(std::size_t count) {
         if (count > (bytes_.size() - at_) / sizeof(double)) fail("the file ends within a list");
         std::vector<double> numbers(count);
@@ -72,8 +73,8 @@ public:
     }
     /// Whether the header announces a binary file.
     bool is_binary() const { return binary_; }
-    /// Reads "FoamFile { ... }" and returns the class of its contents. Fails unless it announces ASCII or, where the caller
-    /// copes with lists in binary, those of numbers of 64 bits.
+    /// Reads "FoamFile { ... }" and returns the class of its contents. Fails unless it announces ASCII or, where the
+    /// caller copes with lists in binary, those of numbers of 64 bits.
     std::string read_header(bool copes_with_binary = false) {
         std::string type;
         expect("FoamFile");

@@ -41,15 +41,16 @@ struct FormatRow {
     std::vector<std::filesystem::path> (*files)(const std::filesystem::path&, const WriteOptions&) = nullptr;
     /// Throws IoError where the mesh certainly cannot be written. Null: it can where each of its files can.
     void (*check)(const std::filesystem::path&) = nullptr;
-    /// Writes a mesh with curved cells, internal markers included, as `write` does. Null: the format holds straight cells.
+    /// Writes a mesh with curved cells, internal markers included, as `write` does. Null: the format holds straight
+    /// cells.
     void (*write_curved)(const MeshView&, const CurvedNodes&, const std::filesystem::path&,
                          const WriteOptions&) = nullptr;
     /// Reads a mesh whose cells may be curved. Null: the format is read with straight cells.
     CurvedMesh (*read_curved)(const std::filesystem::path&) = nullptr;
     /// Reads a mesh. Throws IoError, InputError. Null: the format is not read.
     Mesh (*read)(const std::filesystem::path&) = nullptr;
-    /// Reads the same mesh into arrays that may lie in files, in constant memory beside the markers where the variant of
-    /// the format allows it. Null: meshes are read as a whole.
+    /// Reads the same mesh into arrays that may lie in files, in constant memory beside the markers where the variant
+    /// of the format allows it. Null: meshes are read as a whole.
     void (*read_stored)(const std::filesystem::path&, MeshArrays&) = nullptr;
     /// Reads a mesh and its sizes from the bytes of a file. Throws InputError. Null: the format holds no sizes.
     PointValues (*read_sizes)(const std::string& bytes, const std::filesystem::path&) = nullptr;
@@ -75,8 +76,8 @@ const std::vector<FormatRow>& format_table();
 /// one stream.
 const FormatRow& find_format(const std::filesystem::path& file, const std::string& name = {});
 
-/// Returns the format that a file is read in: the one of this name, or else one that recognizes the file, or else the one
-/// that its name stands for. Throws UsageError where there is none, or where it is only written.
+/// Returns the format that a file is read in: the one of this name, or else one that recognizes the file, or else the
+/// one that its name stands for. Throws UsageError where there is none, or where it is only written.
 const FormatRow& format_to_read(const std::filesystem::path& file, const std::string& name = {});
 
 // --- The functions of the formats
@@ -177,7 +178,8 @@ void check_openfoam_writable(const std::filesystem::path& file);
 /// Writes the folder and, for more than one part, the file of the parts beside it.
 void write_openfoam(const MeshView& mesh, const std::filesystem::path& file, const Extrusion& extrusion,
                     std::size_t parts);
-/// Returns the file beside the folder that says which part a cell belongs to, for decomposePar with the method `manual`.
+/// Returns the file beside the folder that says which part a cell belongs to, for decomposePar with the method
+/// `manual`.
 std::filesystem::path openfoam_parts_file(const std::filesystem::path& file);
 /// Writes the places of all vertices into the folder of a time: as points, and as the field `displacement` from their
 /// places in the mesh.
@@ -191,8 +193,8 @@ struct NumberedCells {
     std::vector<std::uint32_t> numbers;
 };
 LAMINA_EXPORT NumberedCells read_numbered_openfoam(const std::filesystem::path& file);
-/// Reads fields of a time folder, or of the latest one in the folder of a case. `mesh`: its case or polyMesh; empty: the
-/// case round the time folder.
+/// Reads fields of a time folder, or of the latest one in the folder of a case. `mesh`: its case or polyMesh; empty:
+/// the case round the time folder.
 Solution read_openfoam_solution(const std::filesystem::path& folder, std::span<const FieldRequest> fields,
                                 const std::filesystem::path& mesh);
 /// Returns the folder of the mesh: the path itself where it ends in "polyMesh", else the folder of this name in the

@@ -39,8 +39,8 @@ bool region_of_name(std::string_view name, Region& region);
 void require_marker_names(std::span<const Marker> markers, const std::filesystem::path& file, const char* format,
                           std::string_view forbidden, std::size_t max_bytes);
 
-/// Throws UsageError unless every marker has a legal name (marker_names.hpp). It is for formats that programs read which
-/// look for markers by name.
+/// Throws UsageError unless every marker has a legal name (marker_names.hpp). It is for formats that programs read
+/// which look for markers by name.
 void require_legal_marker_names(std::span<const Marker> markers, const std::filesystem::path& file, const char* format);
 
 /// Reverses the marker edges that no cell has in their direction but that one has in the other: some programs write

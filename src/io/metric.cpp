@@ -1,4 +1,5 @@
-// Reads and writes metrics. Source of the format of Medit: P. J. Frey, MEDIT, INRIA technical report 253 (2001), appendix.
+// Reads and writes metrics. Source of the format of Medit: P. J. Frey, MEDIT, INRIA technical report 253 (2001),
+// appendix.
 #include <lamina/metric.hpp>
 
 #include <algorithm>

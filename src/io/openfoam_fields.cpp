@@ -1,5 +1,5 @@
-// Reads the fields of an OpenFOAM case in ASCII or binary. Source: OpenFOAM user guide, "Boundaries", "Basic input/output file
-// format".
+// Reads the fields of an OpenFOAM case in ASCII or binary. Source: OpenFOAM user guide, "Boundaries", "Basic
+// input/output file format".
 #include <charconv>
 #include <cmath>
 #include <filesystem>

@@ -11,8 +11,8 @@
 // of those at the last one. For plane flow both are one patch, `frontAndBack`, of type empty.
 //
 // A mesh with a line of symmetry called `axis` becomes a wedge of 2.5 degrees about y = 0: both planes are turned about
-// it by half of that, and are patches of type wedge. Points on the axis are in both planes, sides with one end on it are
-// triangles, and those on it are no faces.
+// it by half of that, and are patches of type wedge. Points on the axis are in both planes, sides with one end on it
+// are triangles, and those on it are no faces.
 #include <fmt/format.h>
 
 #include <algorithm>

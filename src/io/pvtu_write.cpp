@@ -1,7 +1,7 @@
-// Writes a mesh in parts, for readers that divide their work: NAME_0.vtu, NAME_1.vtu ... hold the parts, NAME.pvtu lists
-// them. Each part is a VTU file by itself (vtu_write.cpp). Vertices between parts stand in each of them; the point data
-// `vertex`, marked as the global ids, hold the numbers of the vertices in the mesh. Source: VTK User's Guide, "VTK File
-// Formats", XML, parallel formats.
+// Writes a mesh in parts, for readers that divide their work: NAME_0.vtu, NAME_1.vtu ... hold the parts, NAME.pvtu
+// lists them. Each part is a VTU file by itself (vtu_write.cpp). Vertices between parts stand in each of them; the
+// point data `vertex`, marked as the global ids, hold the numbers of the vertices in the mesh. Source: VTK User's
+// Guide, "VTK File Formats", XML, parallel formats.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -20,8 +20,8 @@ public:
     /// Throws IoError about the target.
     void append(std::string_view bytes);
     std::size_t size() const { return size_; }
-    /// Writes all bytes to the stream and gives their room on the disk back on the way. May be called once. Throws IoError
-    /// about the target.
+    /// Writes all bytes to the stream and gives their room on the disk back on the way. May be called once. Throws
+    /// IoError about the target.
     void move_to(std::ostream& out);
 
 private:

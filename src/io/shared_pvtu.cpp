@@ -1,5 +1,6 @@
-// PVTU files from several processes: each writes the cells that it holds as parts of their own, so nothing but the numbers of
-// the parts is sent. Which cells a part holds depends on who has made which piece; all parts together are the mesh.
+// PVTU files from several processes: each writes the cells that it holds as parts of their own, so nothing but the
+// numbers of the parts is sent. Which cells a part holds depends on who has made which piece; all parts together are
+// the mesh.
 #include <algorithm>
 #include <cstdint>
 #include <optional>

@@ -1,5 +1,5 @@
-// One file from several processes: sizes are gathered, offsets follow from the order of all parts, and each process writes
-// its parts where they belong.
+// One file from several processes: sizes are gathered, offsets follow from the order of all parts, and each process
+// writes its parts where they belong.
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
@@ -256,7 +256,8 @@ void write_shared_mesh(const mesh::MeshParts& parts, const MeshFrame& frame, Ran
         if (const std::string failure = shared->close(); !failure.empty()) throw IoError(file.string(), failure);
         ranks.agree();
     };
-    // The file gets its name on rank 0, when all have written. Not every MPI reports a full disk, so there is room before.
+    // The file gets its name on rank 0, when all have written. Not every MPI reports a full disk, so there is room
+    // before.
     if (ranks.rank() == 0) {
         core::write_atomically(file, [&](const std::filesystem::path& temporary) {
             core::reserve_room(temporary, file, writer.size());

@@ -30,7 +30,8 @@ namespace {
 template <class Target>
 class Su2Reader {
 public:
-    /// Fills the target, a Mesh or MeshArrays. `forget(place)` says that the bytes before this place are no longer needed.
+    /// Fills the target, a Mesh or MeshArrays. `forget(place)` says that the bytes before this place are no longer
+    /// needed.
     Su2Reader(
         std::string_view bytes, const std::string& file, Target& target,
         std::function<void(std::size_t)> forget = [](std::size_t) {})

@@ -24,8 +24,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The file begins with five integers: this number, the numbers of fields and of vertices, and two zeros. Names follow, then
-/// all fields of one vertex after the other.
+/// The file begins with five integers: this number, the numbers of fields and of vertices, and two zeros. Names follow,
+/// then all fields of one vertex after the other.
 constexpr std::int32_t magic = 535532;
 constexpr std::size_t head_bytes = 20, name_bytes = 33;
 

@@ -19,8 +19,8 @@ struct VtkTag {
     }
 };
 
-/// Reads as much of XML as VTK writes: tags with quoted attributes, comments, and text, which is skipped. With expat this
-/// would be about as long, and 25 times as slow where arrays are inline, since expat looks at each of their bytes.
+/// Reads as much of XML as VTK writes: tags with quoted attributes, comments, and text, which is skipped. With expat
+/// this would be about as long, and 25 times as slow where arrays are inline, since expat looks at each of their bytes.
 class VtkTagReader {
 public:
     /// The text must outlive this object and its tags.

@@ -223,15 +223,16 @@ std::size_t VtkXmlFile::start_of(const ArrayHeader& array, const std::string& na
     return appended_start_ + array.at;
 }
 
-/// Returns how many values an array may have whose number the file does not announce: names, constraints, the vertices of
-/// cells. Of the last ones a cell has at most four, but for those that are ignored.
+/// Returns how many values an array may have whose number the file does not announce: names, constraints, the vertices
+/// of cells. Of the last ones a cell has at most four, but for those that are ignored.
 std::size_t VtkXmlFile::most_values(const std::string& name) const {
     constexpr std::size_t each = 4, of_file = 2;  // numbers of a point or cell; bytes of a compressed byte
     return std::max(each * (std::min(points_, bytes_.size()) + std::min(cells_, bytes_.size())),
                     of_file * bytes_.size() / stored_bytes(name));
 }
 
-/// Returns the data of a binary array, decoded and decompressed. Fails where it is compressed and larger than `most` bytes.
+/// Returns the data of a binary array, decoded and decompressed. Fails where it is compressed and larger than `most`
+/// bytes.
 std::string VtkXmlFile::plain_bytes(const std::string& name, std::size_t most) const {
     const ArrayHeader& stored = header_of(name);
     ByteStream stream(*this, name, start_of(stored, name), stored.appended ? appended_encoding_ : stored.encoding);

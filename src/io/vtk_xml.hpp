@@ -44,8 +44,8 @@ public:
     template <class T>
     std::vector<T> values(const std::string& name, std::size_t expected) const;
 
-    /// Returns `count` values of an array from value `first` on. Only these are looked at where the array is stored raw.
-    /// Fails where it has not so many.
+    /// Returns `count` values of an array from value `first` on. Only these are looked at where the array is stored
+    /// raw. Fails where it has not so many.
     template <class T>
     std::vector<T> part(const std::string& name, std::size_t first, std::size_t count) const;
     /// Returns the number of values of an array.

@@ -1,4 +1,5 @@
-// VTU files part by part: each array whose values the parts know is a section. The others follow from the numbers of cells. vtu_write.cpp describes the format.
+// VTU files part by part: each array whose values the parts know is a section. The others follow from the numbers of
+// cells. vtu_write.cpp describes the format.
 #include <filesystem>
 #include <string>
 #include <utility>

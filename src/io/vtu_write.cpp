@@ -11,7 +11,8 @@
 //   field data   marker_names (UTF-8, with a zero byte behind each name, since not every reader knows strings),
 //                marker_kinds (in the order of MarkerKind), constraints (pairs of points)
 //   point data   wall_distance where it is asked for; vertex in parts of a mesh (pvtu_write.cpp)
-// Files of sizes have the point data size and, where they are known, the field data lamina_size_gradation and those of walls.
+// Files of sizes have the point data size and, where they are known, the field data lamina_size_gradation and those of
+// walls.
 #include <fmt/format.h>
 
 #include <algorithm>

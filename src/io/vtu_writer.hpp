@@ -1,5 +1,5 @@
-// The XML header of VTU files and the arrays that it announces: what the writer of whole meshes and the one of parts have
-// in common. vtu_write.cpp describes the format.
+// The XML header of VTU files and the arrays that it announces: what the writer of whole meshes and the one of parts
+// have in common. vtu_write.cpp describes the format.
 #pragma once
 
 #include <fmt/format.h>
@@ -62,7 +62,8 @@ public:
         }
         appended_.push_back(std::move(array));
     }
-    /// Announces an array of so many bytes that a section holds, but for these at its end. Precondition: no compression.
+    /// Announces an array of so many bytes that a section holds, but for these at its end. Precondition: no
+    /// compression.
     template <class T>
     void add_section(const char* name, std::size_t components, std::size_t section, std::size_t bytes,
                      std::string end) {
@@ -149,7 +150,8 @@ inline VtkCellType vtu_type(std::size_t i, std::size_t triangles, std::size_t in
 /// Returns the tags before the field data.
 std::string vtu_head(bool compressed);
 
-/// Adds the names and kinds of the markers, the constraints and, where they are known, the gradation of sizes and the walls.
+/// Adds the names and kinds of the markers, the constraints and, where they are known, the gradation of sizes and the
+/// walls.
 void add_vtu_field_data(std::span<const Marker> markers, std::span<const Segment> constraints, const SizedMesh* sizes,
                         VtuWriter& vtu);
 

@@ -132,9 +132,9 @@ private:
         return {std::min(1.0, 1 / growth_of_law), 1};
     }
 
-    /// Checks that the points of a ray lie on it, below its limit, and that its spacings grow as the law says: exactly where
-    /// it has all layers of a requested number, up to the middle one also where the column goes on beyond isotropy with
-    /// spacings of one height, and above it with a stretch. `growth` is that on its element.
+    /// Checks that the points of a ray lie on it, below its limit, and that its spacings grow as the law says: exactly
+    /// where it has all layers of a requested number, up to the middle one also where the column goes on beyond
+    /// isotropy with spacings of one height, and above it with a stretch. `growth` is that on its element.
     void check_heights(const Ray& ray, const LayerGrowth& growth) {
         const Point origin = at(ray.origin);
         const GrowthLawEntry& law = growth_law_entry(options_.growth_law);

@@ -73,8 +73,8 @@ std::span<const LineFoot> feet_at(Point vertex, std::span<const LineFoot> feet) 
     return {first, std::find_if_not(first, feet.end(), is_there)};
 }
 
-/// Adds the rays of an outer wall or of an obstacle, as a closed outline: normals of its straight parts, and bisectors at
-/// its corners, of which those of outer walls are beyond the domain. Rays at feet run along their lines.
+/// Adds the rays of an outer wall or of an obstacle, as a closed outline: normals of its straight parts, and bisectors
+/// at its corners, of which those of outer walls are beyond the domain. Rays at feet run along their lines.
 void add_outline(const std::vector<Point>& p, std::span<const LineFoot> feet, double max_angle, RaySet& set) {
     for (std::size_t i = 0; i < p.size(); ++i) {
         const Point before = unit(p[i] - p[i > 0 ? i - 1 : p.size() - 1]);
@@ -89,8 +89,8 @@ void add_outline(const std::vector<Point>& p, std::span<const LineFoot> feet, do
     set.begin.push_back(set.lines.size());
 }
 
-/// Returns the image of a ray in a line of symmetry. `before` is the ray before it, behind which the corner of the wall is
-/// that is behind the image.
+/// Returns the image of a ray in a line of symmetry. `before` is the ray before it, behind which the corner of the wall
+/// is that is behind the image.
 RayLine image_of_ray(const RayLine& ray, const RayLine& before, double y) {
     RayLine image = ray;
     image.origin = geometry::image_of(ray.origin, y);
@@ -109,9 +109,9 @@ RayLine ray_in_line(RayLine ray, double direction) {
     return ray;
 }
 
-/// Makes the rays of a body with a line of symmetry images of each other. Those that stand where the line meets the body,
-/// the first one and the last one above, lie in the line. Rays of a wake along the line come first, from its end on.
-/// Returns how many rays are not below it.
+/// Makes the rays of a body with a line of symmetry images of each other. Those that stand where the line meets the
+/// body, the first one and the last one above, lie in the line. Rays of a wake along the line come first, from its end
+/// on. Returns how many rays are not below it.
 std::size_t mirror_rays(const Element& element, double y, std::vector<RayLine>& rays) {
     constexpr double rounding = 1e-6;  // a ray of a fan that rises less lies in the line
     const Point tail = element.points.front();
@@ -158,8 +158,8 @@ struct Walls {
     const Obstacles& obstacles;
     const PlaceOnWall& place;
 
-    /// Returns the numbers of the elements that have images: below a line of symmetry all others than those that it cuts,
-    /// unless it cuts none; in a row all, again and again.
+    /// Returns the numbers of the elements that have images: below a line of symmetry all others than those that it
+    /// cuts, unless it cuts none; in a row all, again and again.
     std::vector<std::size_t> with_images() const {
         std::vector<std::size_t> result;
         if (geometry.pitch) {

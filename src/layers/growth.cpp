@@ -1,6 +1,6 @@
-// The growth laws with the table that names them, the growth that follows from the options of the layer, and the table of
-// these. Sources: R. V. Garimella, M. S. Shephard, Boundary layer mesh generation for viscous flow simulations, Int. J.
-// Numer. Meth. Engng 49 (2000); J. K. Pardue, thesis (2015), section 3.3.
+// The growth laws with the table that names them, the growth that follows from the options of the layer, and the table
+// of these. Sources: R. V. Garimella, M. S. Shephard, Boundary layer mesh generation for viscous flow simulations, Int.
+// J. Numer. Meth. Engng 49 (2000); J. K. Pardue, thesis (2015), section 3.3.
 #include "layers/growth_laws.hpp"
 
 #include <algorithm>

@@ -76,7 +76,8 @@ LAMINA_EXPORT LayerGrowth growth_on_element(const LayerGrowth& growth, std::size
 
 /// Returns the first height whose top lies at this y+ on a flat plate of length `chord` in turbulent flow:
 ///   y+ chord / (Re sqrt(cf / 2)),  cf = 0.026 / Re^(1/7),  Re = reynolds, based on the chord.
-/// Throws OptionError for numbers that are not positive. Source: F. M. White, Fluid Mechanics, 5th ed. (2003), section 7.4.
+/// Throws OptionError for numbers that are not positive. Source: F. M. White, Fluid Mechanics, 5th ed. (2003), section
+/// 7.4.
 LAMINA_EXPORT double first_height_for(double y_plus, double reynolds, double chord);
 
 /// Returns the height of the top of layer n above the wall; 0 for n = 0. For the adaptive law it is the height on a ray
@@ -87,8 +88,8 @@ LAMINA_EXPORT double layer_height(const LayerGrowth& growth, std::uint32_t n);
 /// decides: for layers up to isotropy and for the adaptive law.
 LAMINA_EXPORT std::optional<double> requested_height(const LayerGrowth& growth);
 
-/// Returns the number of parts of each fan with LayerOptions::equal_fans: as many as half a turn needs for none to exceed
-/// the largest angle between rays. Corners turn by less.
+/// Returns the number of parts of each fan with LayerOptions::equal_fans: as many as half a turn needs for none to
+/// exceed the largest angle between rays. Corners turn by less.
 LAMINA_EXPORT std::uint32_t equal_fan_parts(const LayerOptions& options);
 
 }  // namespace lamina::layers

@@ -57,8 +57,8 @@ struct Ray {
     double height_limit;              ///< no point lies beyond this height; infinite where nothing is in the way
     RayPlace place = RayPlace::wall;  ///< where it stands
     bool along_line = false;          ///< whether it runs along a line inside the domain, of which it is a part
-    /// The wall's vertices between this ray and the next one: a sharp concave corner and those so near to it that no first
-    /// layer fits between its sides. They have no rays. Empty elsewhere.
+    /// The wall's vertices between this ray and the next one: a sharp concave corner and those so near to it that no
+    /// first layer fits between its sides. They have no rays. Empty elsewhere.
     std::vector<VertexId> corner_after{};
 
     /// Returns the vertex at the top of layer n; the wall vertex for n = 0. Precondition: n <= layers.
@@ -141,11 +141,12 @@ struct Layer {
 /// Returns the edges of the walls and borders of a layer: Layer::edges.
 LAMINA_EXPORT LayerEdges layer_edges(const Layer& layer);
 
-/// Makes the layer of these walls. From each vertex of the wall one ray leaves along the normal; sharp corners have fans or
-/// refining rays. Each ray gets the layers that fit before something is in its way. Neighbouring rays differ by at most one
-/// layer, every cell between them is positively oriented, and the fronts are simple and disjoint. The fronts are divided and
-/// become outer borders that can be frozen. Precondition: check_simple(geometry). Throws OptionError for options out of range,
-/// for heights below the resolution of the coordinates and for layers absurdly thicker than the input is wide.
+/// Makes the layer of these walls. From each vertex of the wall one ray leaves along the normal; sharp corners have
+/// fans or refining rays. Each ray gets the layers that fit before something is in its way. Neighbouring rays differ by
+/// at most one layer, every cell between them is positively oriented, and the fronts are simple and disjoint. The
+/// fronts are divided and become outer borders that can be frozen. Precondition: check_simple(geometry). Throws
+/// OptionError for options out of range, for heights below the resolution of the coordinates and for layers absurdly
+/// thicker than the input is wide.
 /// Source: J. K. Pardue, thesis (2015), chapter 3.
 LAMINA_EXPORT Layer make_layer(const Geometry& geometry, const LayerOptions& options, const LayerGrowth& growth,
                                const BorderOptions& border = {});

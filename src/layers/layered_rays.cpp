@@ -65,7 +65,8 @@ std::vector<std::size_t> RaySet::following() const {
 
 namespace {
 
-/// Returns the largest heights along the rays, at most those asked for and the limits, that rise by no more than a slope.
+/// Returns the largest heights along the rays, at most those asked for and the limits, that rise by no more than a
+/// slope.
 std::vector<double> bounded_heights(const Rays& rays) {
     std::vector<double> heights(rays.asked);
     for (std::size_t i = 0; i < heights.size(); ++i) heights[i] = std::min(heights[i], rays.limits[i]);

@@ -29,8 +29,8 @@ struct WallNeighbours {
 /// Returns the wall's vertices beside a ray between these two others.
 WallNeighbours wall_neighbours(const RayLine& before, const RayLine& ray, const RayLine& after);
 
-/// Lowers values round a closed chain until none exceeds bound(neighbour, place). Goes twice round it in both directions.
-/// Precondition: the bound is never below the neighbour's own value.
+/// Lowers values round a closed chain until none exceeds bound(neighbour, place). Goes twice round it in both
+/// directions. Precondition: the bound is never below the neighbour's own value.
 template <class T, class Bound>
 void lower_round(std::span<T> values, Bound bound) {
     const std::size_t n = values.size();
@@ -51,8 +51,8 @@ void lower_to_neighbours(const RaySet& set, std::vector<T>& values, Bound bound)
     }
 }
 
-/// Lowers heights along rays until none rises above its neighbour's by more than a slope, per unit of distance between their
-/// points: they become the largest heights below those given with that slope, an inf-convolution.
+/// Lowers heights along rays until none rises above its neighbour's by more than a slope, per unit of distance between
+/// their points: they become the largest heights below those given with that slope, an inf-convolution.
 /// Source: L. C. Evans, Partial Differential Equations (2010), section 3.3.2 (the Hopf-Lax formula).
 void bound_slopes(const RaySet& set, std::vector<double>& heights);
 
@@ -89,8 +89,8 @@ LayeredRays layered_rays(const Rays& rays);
 /// the walls have no room unless they run along them.
 void measure_room(Rays& rays, const Obstacles& obstacles);
 
-/// Returns the front: the largest heights along the rays, at most those asked for and the limits, that rise along it by no
-/// more than a slope. No ray loses its first layer for its neighbours.
+/// Returns the front: the largest heights along the rays, at most those asked for and the limits, that rise along it by
+/// no more than a slope. No ray loses its first layer for its neighbours.
 std::vector<double> front_heights(const Rays& rays);
 
 /// Makes the columns up to the front, and lowers the numbers of layers where they would overlap.

@@ -1,5 +1,5 @@
-// What reports say of a layer: the share of the requested cells that was made, everywhere and where nothing is in their way, and
-// how evenly columns end.
+// What reports say of a layer: the share of the requested cells that was made, everywhere and where nothing is in their
+// way, and how evenly columns end.
 #include "layers/measures.hpp"
 #include "layers/layer.hpp"
 

@@ -124,10 +124,10 @@ struct Rays {
     /// stand at its vertices alone, lest neighbouring edges differ by whole factors (docs/layer.md).
     std::vector<char> jagged;
     bool enabled = true;  ///< LayerOptions::enabled
-    /// LayerOptions::topology. Last layers of quadrilaterals stay lower than others, since faces between them would be more
-    /// skewed (docs/layer.md). Tops of cells of the grid on resampled walls stay whole where they are little longer than
-    /// asked for: a point on a flat one makes an angle near 180 degrees, where a Delaunay triangulation joins it to points
-    /// farther below.
+    /// LayerOptions::topology. Last layers of quadrilaterals stay lower than others, since faces between them would be
+    /// more skewed (docs/layer.md). Tops of cells of the grid on resampled walls stay whole where they are little
+    /// longer than asked for: a point on a flat one makes an angle near 180 degrees, where a Delaunay triangulation
+    /// joins it to points farther below.
     LayerTopology topology = LayerTopology::layered;
     LayerGrowth growth;                 ///< the growth that was requested
     std::vector<double> asked;          ///< height along each ray at which its layers are to end; empty if disabled
@@ -141,7 +141,8 @@ struct Rays {
     /// symmetry cuts it.
     std::vector<std::size_t> domain_ends;
     std::size_t outer_walls = 0;  ///< number of elements behind the bodies that are outer walls
-    /// Number of last elements, images in a line of symmetry, copies in a row of blades or obstacles: none is in the domain.
+    /// Number of last elements, images in a line of symmetry, copies in a row of blades or obstacles: none is in the
+    /// domain.
     std::size_t images = 0;
     /// Number of copies of all bodies in a row of blades, with which images begin: their rays are as high. 0: no row.
     std::size_t copies = 0;
@@ -196,9 +197,9 @@ struct Obstacles {
 /// one layer, every cell between them is positively oriented, and the fronts are simple and disjoint. Precondition:
 /// check_simple(geometry). Throws OptionError for options out of range, for heights below the resolution of the
 /// coordinates and for layers absurdly thicker than the input is wide. Outer walls become elements behind those of the
-/// geometry. Rays of bodies with a line of symmetry are images of each other; those on the line lie in it. Rays of copies in
-/// a row of blades are as high as each other. Obstacles have no layers; in a row they come with their copies. Refining rays
-/// stand on curved walls, and so do points that divide their edges later.
+/// geometry. Rays of bodies with a line of symmetry are images of each other; those on the line lie in it. Rays of
+/// copies in a row of blades are as high as each other. Obstacles have no layers; in a row they come with their copies.
+/// Refining rays stand on curved walls, and so do points that divide their edges later.
 Rays grow_rays(const Geometry& geometry, const LayerOptions& options, const LayerGrowth& growth,
                std::span<const OuterWall> outer_walls = {}, const Obstacles& obstacles = {},
                const PlaceOnWall& place_on_wall = {});

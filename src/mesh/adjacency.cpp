@@ -38,8 +38,8 @@ void sort_matches(Pairs& pairs) {
     std::sort(pairs.overused.begin(), pairs.overused.end());
 }
 
-/// Finds the twins in all buckets, which together hold all directed edges of each undirected edge in them. All lists have
-/// the same number of buckets.
+/// Finds the twins in all buckets, which together hold all directed edges of each undirected edge in them. All lists
+/// have the same number of buckets.
 template <class Pairs>
 void match_buckets(std::span<const EdgeBuckets* const> lists, std::size_t buckets, Pairs& pairs) {
     const auto match_bucket = [&](std::size_t bucket, std::size_t) {

@@ -90,8 +90,8 @@ struct EdgePair {
     std::uint32_t edge = no_edge, twin = no_edge;
 };
 
-/// Returns for each segment the lowest directed edge between its ends, in either direction, or no_edge, and the twin that
-/// find_adjacency() finds for it; takes linear time. Precondition: all indices are in range.
+/// Returns for each segment the lowest directed edge between its ends, in either direction, or no_edge, and the twin
+/// that find_adjacency() finds for it; takes linear time. Precondition: all indices are in range.
 LAMINA_EXPORT std::vector<EdgePair> find_pairs(const MeshView& mesh, std::span<const Segment> segments);
 
 /// Returns the edges alone.

@@ -111,8 +111,8 @@ public:
         std::sort(vertices_.begin(), vertices_.end());
     }
 
-    /// Returns whether the contact of two edges is that of two sides of such a wall: they are the same edge seen from both
-    /// sides, or meet in one end at which each has a vertex of such a wall, and nowhere else.
+    /// Returns whether the contact of two edges is that of two sides of such a wall: they are the same edge seen from
+    /// both sides, or meet in one end at which each has a vertex of such a wall, and nowhere else.
     bool allow(std::span<const Point> points, const Segment& s, const Segment& t) const {
         if (edges_.empty()) return false;
         const auto found = std::lower_bound(edges_.begin(), edges_.end(), SlitEdge{s, {}});

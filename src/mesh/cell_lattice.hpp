@@ -20,9 +20,9 @@ constexpr unsigned nodes_of_cell(unsigned corners, unsigned order) {
     return corners == 3 ? (order + 1) * (order + 2) / 2 : (order + 1) * (order + 1);
 }
 
-/// Returns the places of the nodes of a cell with 3 or 4 corners, counter-clockwise along its border from the first corner
-/// on: the corners, then those within each edge from one corner to the next, then those inside, ordered likewise.
-/// Precondition: 1 <= order <= max_cell_order.
+/// Returns the places of the nodes of a cell with 3 or 4 corners, counter-clockwise along its border from the first
+/// corner on: the corners, then those within each edge from one corner to the next, then those inside, ordered
+/// likewise. Precondition: 1 <= order <= max_cell_order.
 LAMINA_EXPORT std::span<const LatticePlace> lattice_of_cell(unsigned corners, unsigned order);
 
 }  // namespace lamina::mesh

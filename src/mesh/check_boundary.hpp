@@ -12,8 +12,9 @@
 
 namespace lamina::mesh {
 
-/// Checks the markers and, where the mesh is `conforming`, the loops of the boundary and the sums that follow from them.
-/// `points` holds the vertices of the boundary and of the markers. `check` holds the area and the Euler characteristic.
+/// Checks the markers and, where the mesh is `conforming`, the loops of the boundary and the sums that follow from
+/// them. `points` holds the vertices of the boundary and of the markers. `check` holds the area and the Euler
+/// characteristic.
 void check_whole_boundary(std::span<const Point> points, std::span<const Marker> markers,
                           std::span<const BoundaryEdge> boundary, bool conforming, MeshCheck& check,
                           DefectList& defects);

@@ -118,8 +118,8 @@ struct CellBlock {
     std::vector<double> areas;  ///< per cell of the block
 };
 
-/// Sets `firsts` to the edges that have a twin with a higher number, so that each pair is there once. Selects them without
-/// a branch, which the processor would mispredict half of the time.
+/// Sets `firsts` to the edges that have a twin with a higher number, so that each pair is there once. Selects them
+/// without a branch, which the processor would mispredict half of the time.
 void select_first_of_pairs(CellBlock& block) {
     block.firsts.resize(block.twin.size() + 1);
     std::size_t n = 0;

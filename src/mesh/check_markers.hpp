@@ -23,8 +23,8 @@ std::vector<Segment> sorted_undirected(std::span<const Segment> edges);
 /// Returns the edges of all internal markers, with their smaller vertices first, sorted, each once.
 std::vector<Segment> internal_edges(std::span<const Marker> markers);
 
-/// An edge of the boundary and another one of the same marker at the same place, in the opposite direction, between other
-/// vertices.
+/// An edge of the boundary and another one of the same marker at the same place, in the opposite direction, between
+/// other vertices.
 struct SlitEdge {
     Segment edge, twin;
     friend bool operator<(const SlitEdge& a, const SlitEdge& b) { return a.edge < b.edge; }

@@ -1,8 +1,9 @@
-// Source of the interpolation within cells: W. J. Gordon, C. A. Hall, Construction of curvilinear co-ordinate systems and
-// applications to mesh generation, Int. J. Numer. Meth. Eng. 7 (1973) for quadrilaterals; R. E. Barnhill, G. Birkhoff, W. J.
-// Gordon, Smooth interpolation in triangles, J. Approx. Theory 8 (1973) for triangles. Bends that go up the columns of a
-// boundary layer: D. Moxey, M. D. Green, S. J. Sherwin, J. Peiro, An isoparametric approach to high-order curvilinear
-// boundary-layer meshing, Comput. Methods Appl. Mech. Eng. 283 (2015), where cells are parts of one curved cell likewise.
+// Source of the interpolation within cells: W. J. Gordon, C. A. Hall, Construction of curvilinear co-ordinate systems
+// and applications to mesh generation, Int. J. Numer. Meth. Eng. 7 (1973) for quadrilaterals; R. E. Barnhill, G.
+// Birkhoff, W. J. Gordon, Smooth interpolation in triangles, J. Approx. Theory 8 (1973) for triangles. Bends that go up
+// the columns of a boundary layer: D. Moxey, M. D. Green, S. J. Sherwin, J. Peiro, An isoparametric approach to
+// high-order curvilinear boundary-layer meshing, Comput. Methods Appl. Mech. Eng. 283 (2015), where cells are parts of
+// one curved cell likewise.
 #include "mesh/curve_cells.hpp"
 
 #include <algorithm>
@@ -103,8 +104,8 @@ private:
         return beyond == CellColumnNumbers::none ? Across::no_column : Across::other_column;
     }
 
-    /// Returns the edge on the far side of the cell beyond a front, as an edge of that cell, and adds the cell. A column
-    /// goes on through a quadrilateral, and through a triangle across the edge that is not on a ray:
+    /// Returns the edge on the far side of the cell beyond a front, as an edge of that cell, and adds the cell. A
+    /// column goes on through a quadrilateral, and through a triangle across the edge that is not on a ray:
     ///
     ///      4-----3       4-----3      The front 1-2 is followed by 4-3 through the quadrilateral. Through triangles it is
     ///      |     |       |  .  |      followed by 1-3, since the cell across 2-3 is of another column, and then by 4-3.

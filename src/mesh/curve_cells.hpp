@@ -34,11 +34,12 @@ struct CurvedCells {
 /// Makes the cells of a mesh curved cells of order p that follow the walls, and proves all of them valid. Parallel; the
 /// result does not depend on the number of threads.
 ///
-/// The bend d of a wall's edge, the distance between curve and chord at its nodes, goes up the column of cells over it. A
-/// node at the share u along the column and the height h above the wall moves by (1 - h / H) d(u), where H is the height of
-/// the column and of the first cell beyond it, which shares the bend by transfinite interpolation. Without a column that is
-/// the wall's own cell. So the cells of a column are alike but for a factor, and what matters is the bend against H rather
-/// than against the height of a cell: the derivative across the column changes by d / H, and that along it by d'.
+/// The bend d of a wall's edge, the distance between curve and chord at its nodes, goes up the column of cells over it.
+/// A node at the share u along the column and the height h above the wall moves by (1 - h / H) d(u), where H is the
+/// height of the column and of the first cell beyond it, which shares the bend by transfinite interpolation. Without a
+/// column that is the wall's own cell. So the cells of a column are alike but for a factor, and what matters is the
+/// bend against H rather than against the height of a cell: the derivative across the column changes by d / H, and that
+/// along it by d'.
 ///
 /// Where a cell cannot be proved valid, the bends of the edges that move it are halved, and become 0 after six times.
 /// Throws MeshError where a cell is not valid even so. Precondition: check_mesh() finds no defect; the edges are on the

@@ -27,7 +27,8 @@ void for_each_node(const MeshView& mesh, const CurvedNodes& nodes, std::size_t c
     for (const VertexId v : inner_nodes(mesh, nodes, cell)) f(n++, nodes.points[v.index() - mesh.points.size()]);
 }
 
-/// Returns the point of an edge of order p at the parameter t, by Lagrange's polynomials of its p + 1 evenly spaced nodes.
+/// Returns the point of an edge of order p at the parameter t, by Lagrange's polynomials of its p + 1 evenly spaced
+/// nodes.
 inline Point point_of_edge(std::span<const Point> nodes, double t) {
     const auto p = static_cast<double>(nodes.size() - 1);
     Point sum{0, 0};

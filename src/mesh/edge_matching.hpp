@@ -1,6 +1,6 @@
-// Matching of directed edges with their opposites: what find_adjacency() and the survey of edges have in common. Blocks of
-// successive cells match their own edges. Edges whose ends are both shared with other blocks are distributed by a hash of
-// their ends and matched later.
+// Matching of directed edges with their opposites: what find_adjacency() and the survey of edges have in common. Blocks
+// of successive cells match their own edges. Edges whose ends are both shared with other blocks are distributed by a
+// hash of their ends and matched later.
 #pragma once
 
 #include <algorithm>
@@ -84,8 +84,8 @@ struct EdgeMatches {
     std::size_t edges = 0;
 };
 
-/// Finds the twins in a list that holds all directed edges of each undirected edge in it. twin[e] is set for the numbers
-/// of these edges.
+/// Finds the twins in a list that holds all directed edges of each undirected edge in it. twin[e] is set for the
+/// numbers of these edges.
 void match(const TwoWayEdgeList& list, std::span<std::uint32_t> twin, EdgeMatches& matches);
 
 /// A directed edge whose ends are both shared between blocks.

@@ -1,5 +1,5 @@
-// The neighbours in a mesh, found block by block and forgotten: what a check needs that looks at each pair of neighbours
-// once, in a memory that does not grow by twelve bytes for each triangle.
+// The neighbours in a mesh, found block by block and forgotten: what a check needs that looks at each pair of
+// neighbours once, in a memory that does not grow by twelve bytes for each triangle.
 #pragma once
 
 #include <cstdint>
@@ -30,17 +30,18 @@ struct EdgeTotals {
 /// exceed the memory that is allowed, they are looked at part by part, and the cells are read once for each part.
 class LAMINA_EXPORT EdgeSurvey {
 public:
-    /// The arrays of the mesh must outlive this object. `max_bytes` bounds the memory that it takes, unless less than `least_bytes_for_edges`
-    /// would be left for edges. Precondition: all indices are in range. Throws MeshError from 2^32 directed edges on.
+    /// The arrays of the mesh must outlive this object. `max_bytes` bounds the memory that it takes, unless less than
+    /// `least_bytes_for_edges` would be left for edges. Precondition: all indices are in range. Throws MeshError from
+    /// 2^32 directed edges on.
     explicit EdgeSurvey(const MeshView& mesh, std::optional<std::size_t> max_bytes = {},
                         std::size_t least_bytes_for_edges = std::size_t{64} << 20);
 
-    /// Matches the edges of the cells [begin, end), which are a block: cells_per_block ones from a multiple of this number
-    /// on, or the last ones. twin[e] then holds the twin of edge e, both counted from the first edge of the block;
-    /// no_edge where it may lie in another block, or nowhere. To be called once for each block, by any thread.
+    /// Matches the edges of the cells [begin, end), which are a block: cells_per_block ones from a multiple of this
+    /// number on, or the last ones. twin[e] then holds the twin of edge e, both counted from the first edge of the
+    /// block; no_edge where it may lie in another block, or nowhere. To be called once for each block, by any thread.
     void match_block(std::size_t begin, std::size_t end, std::vector<std::uint32_t>& twin);
-    /// Matches all other edges, once the blocks are matched. Calls visit() with their pairs, on several threads at once.
-    /// May be called once.
+    /// Matches all other edges, once the blocks are matched. Calls visit() with their pairs, on several threads at
+    /// once. May be called once.
     void match_between(const std::function<void(std::span<const EdgePair>)>& visit);
     /// Returns the rest. To be called at the end, once.
     EdgeTotals take_totals();

@@ -12,7 +12,8 @@ namespace lamina::mesh {
 
 namespace {
 
-/// Calls f(i, found) for all i below n, on several threads, and returns what all calls add to `found`, in the order of i.
+/// Calls f(i, found) for all i below n, on several threads, and returns what all calls add to `found`, in the order of
+/// i.
 template <class F>
 std::vector<std::uint32_t> collect(std::size_t n, F&& f) {
     const auto collect_block = [&](std::size_t begin, std::size_t end) {
@@ -26,8 +27,8 @@ std::vector<std::uint32_t> collect(std::size_t n, F&& f) {
     return all;
 }
 
-/// All cells round some vertices, with their neighbours round these vertices. Edges are numbered cell by cell. It finds the
-/// two frozen edges between which a corner of an isotropic cell at one of these vertices lies.
+/// All cells round some vertices, with their neighbours round these vertices. Edges are numbered cell by cell. It finds
+/// the two frozen edges between which a corner of an isotropic cell at one of these vertices lies.
 class Stars {
 public:
     Stars(const MeshView& mesh, const VertexMarks& centers, const std::vector<Segment>& constraints)
@@ -48,8 +49,8 @@ public:
         twin_ = pair_edges(ends_).twin;
     }
 
-    /// Returns whether a corner of the cell at one of the vertices lies between two frozen edges that enclose less than 60
-    /// degrees.
+    /// Returns whether a corner of the cell at one of the vertices lies between two frozen edges that enclose less than
+    /// 60 degrees.
     bool has_sharp_corner(std::uint32_t cell) const {
         const auto found = std::lower_bound(cells_.begin(), cells_.end(), cell);
         if (found == cells_.end() || *found != cell) return false;
@@ -70,8 +71,8 @@ public:
         return edge == first_[owner_[edge]] ? first_[owner_[edge] + 1] - 1 : edge - 1;
     }
 
-    /// Precondition: the edge belongs to an isotropic cell and has one of the vertices as an end, so that all its cells are
-    /// there.
+    /// Precondition: the edge belongs to an isotropic cell and has one of the vertices as an end, so that all its cells
+    /// are there.
     bool is_frozen(std::size_t edge) const {
         const std::uint32_t twin = twin_[edge];
         if (twin == no_edge) return true;

@@ -1,6 +1,6 @@
-// Source: A. Johnen, J.-F. Remacle, C. Geuzaine, J. Comput. Phys. 233 (2013); subdivision and products of polynomials in
-// Bernstein's form: G. Farin, Curves and Surfaces for CAGD (2002), chapters 5 and 17; bounds of rounding errors: N. J.
-// Higham, Accuracy and Stability of Numerical Algorithms (2002), chapter 3.
+// Source: A. Johnen, J.-F. Remacle, C. Geuzaine, J. Comput. Phys. 233 (2013); subdivision and products of polynomials
+// in Bernstein's form: G. Farin, Curves and Surfaces for CAGD (2002), chapters 5 and 17; bounds of rounding errors: N.
+// J. Higham, Accuracy and Stability of Numerical Algorithms (2002), chapter 3.
 #include "mesh/jacobian_bounds.hpp"
 
 #include <algorithm>
@@ -26,8 +26,9 @@ double binomial(unsigned n, unsigned k) { return factorial(n) / (factorial(k) * 
 
 // ---- coefficients in one array -------------------------------------------------------------------------------------
 
-/// The coefficients of polynomials on a cell: of degree (n, m) on the square, at [i m' + j] with m' = m + 1, and of total
-/// degree n on the triangle, at the place of (i, j) in rows of ascending j, where the third exponent is n - i - j.
+/// The coefficients of polynomials on a cell: of degree (n, m) on the square, at [i m' + j] with m' = m + 1, and of
+/// total degree n on the triangle, at the place of (i, j) in rows of ascending j, where the third exponent is n - i -
+/// j.
 struct CoefficientGrid {
     unsigned corners, n, m;
 
@@ -101,8 +102,8 @@ Homogeneous times_linear(const Homogeneous& f, unsigned d, double a, double b, d
     return product;
 }
 
-/// Returns i! j! k! times Lagrange's polynomial of the node (i, j) of a triangle, in barycentric coordinates, which is a
-/// product of linear factors (p x - r (x + y + z)) and has whole coefficients.
+/// Returns i! j! k! times Lagrange's polynomial of the node (i, j) of a triangle, in barycentric coordinates, which is
+/// a product of linear factors (p x - r (x + y + z)) and has whole coefficients.
 Homogeneous lagrange_polynomial(unsigned p, unsigned i, unsigned j) {
     Homogeneous f{};
     f[0][0] = 1;
@@ -116,15 +117,16 @@ Homogeneous lagrange_polynomial(unsigned p, unsigned i, unsigned j) {
     return f;
 }
 
-/// Returns the factor, a whole number, of the node (i, j) of a triangle in (p!)^2 times the Bernstein coefficient (a, b).
+/// Returns the factor, a whole number, of the node (i, j) of a triangle in (p!)^2 times the Bernstein coefficient (a,
+/// b).
 double triangle_factor(unsigned p, const LatticePlace& node, unsigned a, unsigned b) {
     const unsigned c = p - a - b, k = p - node.i - node.j;
     return lagrange_polynomial(p, node.i, node.j)[a][b] * factorial(a) * factorial(b) * factorial(c) *
            (factorial(p) / (factorial(node.i) * factorial(node.j) * factorial(k)));
 }
 
-/// Returns the factor of a node of a square in (p!)^4 times the Bernstein coefficient (a, b). On an edge of the triangle
-/// its polynomials are those of a segment.
+/// Returns the factor of a node of a square in (p!)^4 times the Bernstein coefficient (a, b). On an edge of the
+/// triangle its polynomials are those of a segment.
 double square_factor(unsigned p, const LatticePlace& node, unsigned a, unsigned b) {
     return triangle_factor(p, {node.i, p - node.i}, a, p - a) * triangle_factor(p, {node.j, p - node.j}, b, p - b);
 }
@@ -156,8 +158,8 @@ void add_conversion(unsigned corners, unsigned p, const CoefficientGrid& map, De
     join_lists(of_coefficients, rule.to_bernstein, rule.first_factor);
 }
 
-/// Adds the derivatives along i and j and what their products amount to. A derivative on the square is of lower degree in
-/// its own direction alone, and on the triangle of lower total degree.
+/// Adds the derivatives along i and j and what their products amount to. A derivative on the square is of lower degree
+/// in its own direction alone, and on the triangle of lower total degree.
 void add_products(const CoefficientGrid& map, const CoefficientGrid& along, const CoefficientGrid& across,
                   DeterminantRule& rule) {
     rule.along.resize(along.size());
@@ -213,8 +215,8 @@ const DeterminantRule& rule_of(unsigned corners, unsigned order) {
 
 // ---- coefficients of several cells side by side -----------------------------------------------------------------------
 
-// Operations on all lanes at once, which the compiler makes for wider registers once more. Each lane does what it would do
-// alone, so that no bit depends on the others.
+// Operations on all lanes at once, which the compiler makes for wider registers once more. Each lane does what it would
+// do alone, so that no bit depends on the others.
 
 constexpr std::size_t most_nodes = nodes_of_cell(4, max_cell_order);
 
@@ -312,8 +314,8 @@ struct StraightBounds {
     }
 };
 
-/// The derivative of what is off the straight cell is at most slope_of_bend times the largest distance, and the determinant
-/// of a straight cell lies between those at its corners.
+/// The derivative of what is off the straight cell is at most slope_of_bend times the largest distance, and the
+/// determinant of a straight cell lies between those at its corners.
 inline void bound_straight(unsigned corners, unsigned p, double slope, const JacobianBatch& batch,
                            StraightBounds& bounds) {
     StraightSides x, y;
@@ -414,8 +416,8 @@ struct Part {
     int halvings = 0;
 };
 
-/// Halves a polynomial in one variable by de Casteljau's algorithm. Its n + 1 coefficients are at places place(k); `first`
-/// holds them, and those of the first half afterwards.
+/// Halves a polynomial in one variable by de Casteljau's algorithm. Its n + 1 coefficients are at places place(k);
+/// `first` holds them, and those of the first half afterwards.
 template <class Place>
 void halve_row(unsigned n, Place place, Coefficients& first, Coefficients& second) {
     for (unsigned k = 0; k <= n; ++k) second[place(k)] = first[place(k)];

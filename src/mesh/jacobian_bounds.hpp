@@ -1,8 +1,8 @@
 // Whether a cell of higher order is valid: the determinant of its Jacobian is positive everywhere in it. Proved by the
-// coefficients of the determinant in Bernstein's polynomials, between which all its values lie, on parts of the cell that
-// are halved until each is decided.
-// Source: A. Johnen, J.-F. Remacle, C. Geuzaine, Geometrical validity of curvilinear finite elements, J. Comput. Phys. 233
-// (2013), sections 3 and 4.
+// coefficients of the determinant in Bernstein's polynomials, between which all its values lie, on parts of the cell
+// that are halved until each is decided.
+// Source: A. Johnen, J.-F. Remacle, C. Geuzaine, Geometrical validity of curvilinear finite elements, J. Comput. Phys.
+// 233 (2013), sections 3 and 4.
 #pragma once
 
 #include <array>
@@ -33,9 +33,9 @@ struct JacobianBounds {
     double scaled() const { return verdict == CellVerdict::valid ? lower / upper : 0; }
 };
 
-/// Bounds the determinant of a cell with 3 or 4 corners, whose nodes are in the order of lattice_of_cell(). Coordinates are
-/// taken as they are; a bound of all rounding errors is taken off. Precondition: as many nodes as nodes_of_cell() says, with
-/// finite coordinates.
+/// Bounds the determinant of a cell with 3 or 4 corners, whose nodes are in the order of lattice_of_cell(). Coordinates
+/// are taken as they are; a bound of all rounding errors is taken off. Precondition: as many nodes as nodes_of_cell()
+/// says, with finite coordinates.
 LAMINA_EXPORT JacobianBounds bound_jacobian(unsigned corners, unsigned order, std::span<const Point> nodes);
 
 /// The nodes of several cells of one shape and order.
@@ -46,7 +46,8 @@ struct JacobianBatch {
     std::array<Lanes, nodes_of_cell(4, max_cell_order)> x, y;  ///< coordinates, node by node
     std::size_t size = 0;                                      ///< number of cells
 
-    /// Puts a node of the cell that add_cell() adds. Lanes of no cell are copies of the first one. Precondition: size < capacity.
+    /// Puts a node of the cell that add_cell() adds. Lanes of no cell are copies of the first one. Precondition: size <
+    /// capacity.
     void put(std::size_t node, Point p) {
         if (size == 0) {
             x[node] = p.x - Lanes{};

@@ -38,8 +38,8 @@ struct PeriodicSearch {
 LAMINA_EXPORT PeriodicSearch find_periodic_pair(std::span<const Point> points, std::span<const Marker> markers);
 
 /// Returns so many copies of a mesh with periodic borders, joined where a border of one is that of the next: the mesh
-/// itself, copies above, and as many below or one less. Markers go on through all copies. Regions and layers are kept, and
-/// constraints are left out. Throws UsageError where the mesh has no exact pair of such borders.
+/// itself, copies above, and as many below or one less. Markers go on through all copies. Regions and layers are kept,
+/// and constraints are left out. Throws UsageError where the mesh has no exact pair of such borders.
 LAMINA_EXPORT Mesh joined_copies(const Mesh& mesh, std::size_t copies);
 
 }  // namespace lamina::mesh

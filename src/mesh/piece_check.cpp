@@ -219,8 +219,8 @@ private:
         findings_.cells.delaunay.violations += is_strictly_in_circle(at(v[0]), at(v[1]), at(v[2]), at(apex(twin)));
     }
 
-    /// What is_sharp_corner() needs to know. Frozen edges are those of the border: the mesh does not show that a line is
-    /// frozen that dangles in a piece, and there the triangles on both sides are linked.
+    /// What is_sharp_corner() needs to know. Frozen edges are those of the border: the mesh does not show that a line
+    /// is frozen that dangles in a piece, and there the triangles on both sides are linked.
     struct WalkedEdges {
         const PieceChecker& checker;
 

@@ -48,11 +48,12 @@ struct PieceBorderEdge {
 /// Stands for the apex of a triangle that nothing is known of.
 inline constexpr Point unknown_apex{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
 
-/// Returns a number up to 15 for the triangle (a, b, apex): 0 where its angle at the apex may be obtuse or where its area
-/// is far from that of the equilateral triangle over the edge, else one of 15 classes of the ratio of the two areas.
+/// Returns a number up to 15 for the triangle (a, b, apex): 0 where its angle at the apex may be obtuse or where its
+/// area is far from that of the equilateral triangle over the edge, else one of 15 classes of the ratio of the two
+/// areas.
 LAMINA_EXPORT std::uint8_t shape_class_behind(Point a, Point b, Point apex);
-/// Return bounds of the ratio of the areas on both sides of an edge that have these classes, the larger over the smaller
-/// one. Where neither is 0, the edge is Delaunay; where one is, the bounds are infinite and 1.
+/// Return bounds of the ratio of the areas on both sides of an edge that have these classes, the larger over the
+/// smaller one. Where neither is 0, the edge is Delaunay; where one is, the bounds are infinite and 1.
 LAMINA_EXPORT double largest_area_ratio(std::uint8_t one, std::uint8_t other);
 LAMINA_EXPORT double least_area_ratio(std::uint8_t one, std::uint8_t other);
 /// Returns the area of the triangle behind an edge.

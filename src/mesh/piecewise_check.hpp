@@ -18,14 +18,14 @@
 
 namespace lamina::mesh {
 
-/// Collects the findings of the layer and of all pieces, and completes the check with what only they tell together: that
-/// the pieces fit along their borders and that the boundary encloses the domain once.
+/// Collects the findings of the layer and of all pieces, and completes the check with what only they tell together:
+/// that the pieces fit along their borders and that the boundary encloses the domain once.
 class PiecewiseCheck {
 public:
     /// `shared_points` are the vertices of the layer and those on the borders of pieces, by their ids in the mesh; they
-    /// must outlive this object. Other processes match the edges that end at one from `elsewhere` on, where it is given:
-    /// add_seams() takes what they have found, once for each, and the borders of pieces that are added hold none of these
-    /// edges and vertices. Throws OptionError for options out of range.
+    /// must outlive this object. Other processes match the edges that end at one from `elsewhere` on, where it is
+    /// given: add_seams() takes what they have found, once for each, and the borders of pieces that are added hold none
+    /// of these edges and vertices. Throws OptionError for options out of range.
     LAMINA_EXPORT PiecewiseCheck(std::span<const Point> shared_points, MeshCheckOptions options,
                                  std::optional<VertexId> elsewhere = {});
 
@@ -37,16 +37,16 @@ public:
 
     /// Adds what another process has found.
     LAMINA_EXPORT void add_seams(const SeamFindings& findings);
-    /// Says which edges other processes expect on the boundary, and checks the boundary that these markers describe. That
-    /// leaves less to do for finish(), which gets the same markers.
+    /// Says which edges other processes expect on the boundary, and checks the boundary that these markers describe.
+    /// That leaves less to do for finish(), which gets the same markers.
     LAMINA_EXPORT void expect_boundary(std::span<const Marker> markers, std::vector<Segment> outer);
 
     using Wanted = Seams::Wanted;
     /// Returns what finish() needs beyond findings with unknown_apex, whose pieces other processes hold, in ascending
     /// order. The edges of all pieces are numbered in the order in which they were added.
     LAMINA_EXPORT std::vector<Wanted> wanted();
-    /// Returns what wanted() returns, where the edges here are some of all, and ratios of areas up to this one need not be
-    /// known.
+    /// Returns what wanted() returns, where the edges here are some of all, and ratios of areas up to this one need not
+    /// be known.
     LAMINA_EXPORT std::vector<Wanted> wanted(double even_ratio);
     /// Returns the ratios of areas in all pieces, and the least ones between pieces, on both sides of these edges.
     LAMINA_EXPORT QualityCollector least_ratios();

@@ -20,8 +20,8 @@ inline std::size_t shortest_edge(Point a, Point b, Point c) {
     return static_cast<std::size_t>(std::min_element(lengths, lengths + 3) - lengths);
 }
 
-/// Returns whether the corner at the origin v of a directed edge lies between two frozen edges that enclose less than 60
-/// degrees. Walks over the cells round v in both directions up to the next frozen edge:
+/// Returns whether the corner at the origin v of a directed edge lies between two frozen edges that enclose less than
+/// 60 degrees. Walks over the cells round v in both directions up to the next frozen edge:
 ///
 ///      b   .            v-a  frozen edge found clockwise from `edge`
 ///       \ .  cell       v-b  frozen edge found counter-clockwise from it

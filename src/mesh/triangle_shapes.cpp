@@ -59,7 +59,8 @@ inline void measure(const Corners& corners, std::size_t i, TriangleShapes& shape
     for (std::size_t i = 0; i < n; ++i) measure(corners, i, shapes);
 }
 
-/// Each of four lanes adds up every fourth number, which takes one vector operation. The last few go to the first lanes.
+/// Each of four lanes adds up every fourth number, which takes one vector operation. The last few go to the first
+/// lanes.
 inline ShapeTotals add_up_lanes(const TriangleShapes& shapes) {
     constexpr std::size_t lanes = 4;
     ShapeTotals totals[lanes];

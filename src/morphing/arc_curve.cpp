@@ -43,7 +43,8 @@ Point ArcCurve::at(double arc_length) const {
     const auto above = std::upper_bound(arc_.begin() + 1, arc_.end() - 1, arc_length);
     const auto piece = static_cast<std::size_t>(above - arc_.begin() - 1);
     const double chord = chord_of(curve_, piece), rest = arc_length - arc_[piece];
-    // Newton's method. The arc is nearly linear in the share, and each step squares the error: from 0.1 to 1e-16 in four.
+    // Newton's method. The arc is nearly linear in the share, and each step squares the error: from 0.1 to 1e-16 in
+    // four.
     double share = rest / (arc_[piece + 1] - arc_[piece]);
     for (int k = 0; k < 4; ++k)
         share -= (arc_up_to(curve_, piece, share, chord) - rest) / speed(curve_, piece, share, chord);

@@ -113,12 +113,13 @@ MorphResult move_by(const MorphMap& map, std::span<const Point> wall) {
     return result;
 }
 
-/// Goes on by a new map of the mesh half as far as the last one got, until one gets to the end. A mesh at the end of what a
-/// map can do has cells that nearly turn over, which would stop the next map. `result` is that of the first map.
+/// Goes on by a new map of the mesh half as far as the last one got, until one gets to the end. A mesh at the end of
+/// what a map can do has cells that nearly turn over, which would stop the next map. `result` is that of the first map.
 ///
-/// A slat of a high-lift section moved across its slot by 2 % of the chord, up or down, takes 2 and 3 maps where one goes
-/// 58 % and 66 % of the way; a flap turned by 10 degrees, whose slot closes to 44 %, takes 6 for 66 %. A map that
-/// advances by less than a quarter of what the one before did meets walls that do; 64ths of the motion would take too many.
+/// A slat of a high-lift section moved across its slot by 2 % of the chord, up or down, takes 2 and 3 maps where one
+/// goes 58 % and 66 % of the way; a flap turned by 10 degrees, whose slot closes to 44 %, takes 6 for 66 %. A map that
+/// advances by less than a quarter of what the one before did meets walls that do; 64ths of the motion would take too
+/// many.
 void go_on_by_further_maps(const MorphMap& first, std::span<const Point> wall, MorphResult& result) {
     constexpr double least_advance = 0.25, least_share = 1. / 64, share_of_reach = 0.5;
     const MorphMap* map = &first;

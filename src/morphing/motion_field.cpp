@@ -16,7 +16,8 @@ namespace {
 
 constexpr std::uint32_t not_free = no_ray;
 
-/// Returns, per vertex, whether it may slide: whether all boundary edges at it are pieces of one horizontal line of symmetry.
+/// Returns, per vertex, whether it may slide: whether all boundary edges at it are pieces of one horizontal line of
+/// symmetry.
 std::vector<bool> sliding_vertices(const Mesh& mesh) {
     std::vector<bool> slides(mesh.points.size(), false), held(mesh.points.size(), false);
     for (const Marker& marker : mesh.markers) {

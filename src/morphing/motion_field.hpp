@@ -14,8 +14,8 @@
 
 namespace lamina::morphing {
 
-/// The solution of div(k grad m) = 0, in linear finite elements on the reference mesh, for each of the four numbers m of
-/// a motion x -> x + turn (x - o) + shift about one origin o. On the rays it is their own, and on the rest of the
+/// The solution of div(k grad m) = 0, in linear finite elements on the reference mesh, for each of the four numbers m
+/// of a motion x -> x + turn (x - o) + shift about one origin o. On the rays it is their own, and on the rest of the
 /// boundary none; but on horizontal lines of symmetry the shift along x is free, with no flux of it, so that vertices
 /// slide: where a section 0.3 chords above slip ground moves along by 0.1, the smallest angle beyond the layer stays
 /// 28.6 degrees, and falls to 19.8 with vertices that are held. The stiffness k of a triangle is 1 over the root of
@@ -23,8 +23,8 @@ namespace lamina::morphing {
 /// layer of a NACA 0012 turned by 20 degrees falls by 1.0, 0.3 and 0.3 degrees for p = 0, 1/4 and 1/2, and with a far
 /// field of 10 chords by 2.3, 0.9 and 0.6; a slat lowered by 2 % of the chord goes 38 %, 56 % and 66 % of its way.
 /// Source: A. Masud, T. J. R. Hughes, A space-time Galerkin/least-squares finite element formulation of the
-/// Navier-Stokes equations for moving domain problems, Comput. Methods Appl. Mech. Eng. 146 (1997), for stiffness by the
-/// size of cells.
+/// Navier-Stokes equations for moving domain problems, Comput. Methods Appl. Mech. Eng. 146 (1997), for stiffness by
+/// the size of cells.
 class MotionField {
 public:
     /// `wall` holds the wall vertices.

@@ -23,8 +23,8 @@ struct Entry {
 class SymmetricSystem {
 public:
     SymmetricSystem();  ///< has no rows
-    /// Factors a matrix of n rows, of which the entries on and below the diagonal are given. Throws MeshError where it is
-    /// not positive definite, as on cells that are nearly flat, and for more rows than have numbers.
+    /// Factors a matrix of n rows, of which the entries on and below the diagonal are given. Throws MeshError where it
+    /// is not positive definite, as on cells that are nearly flat, and for more rows than have numbers.
     SymmetricSystem(std::size_t n, std::vector<Entry> entries);
     SymmetricSystem(SymmetricSystem&&) noexcept;
     SymmetricSystem& operator=(SymmetricSystem&&) noexcept;

@@ -32,7 +32,8 @@ void require_bodies(std::size_t in_mesh, std::size_t given) {
         throw InputError({}, fmt::format("{} bodies for the {} of the mesh: give one shape for each", given, in_mesh));
 }
 
-/// Corners of an outline, ascending, and which of them are sharp: trailing edges and corners of bases. The others are kinks.
+/// Corners of an outline, ascending, and which of them are sharp: trailing edges and corners of bases. The others are
+/// kinks.
 struct Corners {
     std::vector<std::size_t> vertices;
     std::vector<bool> sharp;
@@ -59,8 +60,8 @@ Corners sharp_or_tail(std::span<const Point> outline, const Corners& corners) {
     return sharp;
 }
 
-/// Returns the corners of the shape in such an order that sharp ones meet sharp ones, and that they are nearest to those of
-/// the body, both seen from the middles of their boxes. It is empty where there is no such order.
+/// Returns the corners of the shape in such an order that sharp ones meet sharp ones, and that they are nearest to
+/// those of the body, both seen from the middles of their boxes. It is empty where there is no such order.
 std::vector<std::size_t> matching_corners(std::span<const Point> body, const Corners& of_body,
                                           std::span<const Point> shape, const Corners& of_shape) {
     const std::size_t n = of_shape.vertices.size();
@@ -88,8 +89,8 @@ struct Pairing {
     std::vector<std::size_t> of_body, of_shape;
 };
 
-/// Pairs all corners, or the sharp ones alone where the kinks are others: coarse coordinates have kinks, too. It is empty
-/// where sharp corners appear or vanish.
+/// Pairs all corners, or the sharp ones alone where the kinks are others: coarse coordinates have kinks, too. It is
+/// empty where sharp corners appear or vanish.
 Pairing pair_corners(std::span<const Point> body, const Corners& of_body, std::span<const Point> shape,
                      const Corners& of_shape) {
     if (std::vector<std::size_t> all = matching_corners(body, of_body, shape, of_shape); !all.empty())
@@ -148,8 +149,8 @@ std::size_t nearest_in(std::span<const double> values, double one) {
     return static_cast<std::size_t>(std::min_element(values.begin(), values.end(), nearer) - values.begin());
 }
 
-/// Returns the vertices of a body on an element: between paired corners they divide the arc length as they do on the body,
-/// but for the nearest one to each kink that has no partner, which comes to stand there.
+/// Returns the vertices of a body on an element: between paired corners they divide the arc length as they do on the
+/// body, but for the nearest one to each kink that has no partner, which comes to stand there.
 std::vector<Point> points_on(const Element& element, std::span<const Point> body, const std::string& name) {
     const std::span<const Point> shape = element.points;
     const Corners of_body = corners_of(body), of_shape = corners_of(shape);

@@ -1,5 +1,5 @@
-// Processes of MPI. Collective functions run on one thread of each process at a time; the counter is taken by all threads
-// one after the other, with one-sided communication: nobody waits for an answer of the process that holds it.
+// Processes of MPI. Collective functions run on one thread of each process at a time; the counter is taken by all
+// threads one after the other, with one-sided communication: nobody waits for an answer of the process that holds it.
 #include <lamina/mpi_ranks.hpp>
 
 #include <mpi.h>

@@ -1,7 +1,7 @@
 // The bytes of a mesh are a sequence of arrays of whole numbers, in the order of share/page/decode.js. An array is
-// stored as its length (4 bytes), the number of bytes of a number (1 byte), and then all lowest bytes, all second bytes,
-// and so on: high bytes are alike and vanish in compression. All is little-endian. Numbers with a sign are stored as
-// 0, -1, 1, -2, ... -> 0, 1, 2, 3, ...
+// stored as its length (4 bytes), the number of bytes of a number (1 byte), and then all lowest bytes, all second
+// bytes, and so on: high bytes are alike and vanish in compression. All is little-endian. Numbers with a sign are
+// stored as 0, -1, 1, -2, ... -> 0, 1, 2, 3, ...
 #include "page/packed_mesh.hpp"
 
 #include <zlib.h>

@@ -1,9 +1,9 @@
 // The order in which a page stores cells and vertices: each cell is found across an edge of one that is stored already,
 // so that connectivity takes little more than one symbol a cell, and vertices can be predicted from their neighbours.
 //
-// Cells grow in rings. The front is the cyclic list of *gates*, the edges between what is stored and what is not. A gate
-// s -> t has the stored cell on its left. The gates wait in a queue, in the order in which they came to be. The cell
-// across the first one has a third vertex c:
+// Cells grow in rings. The front is the cyclic list of *gates*, the edges between what is stored and what is not. A
+// gate s -> t has the stored cell on its left. The gates wait in a queue, in the order in which they came to be. The
+// cell across the first one has a third vertex c:
 //
 //            c                      the gate s -> t is replaced by s -> c and c -> t. Where c is where the gate
 //           / \                     before it begins or the gate behind it ends, and the cell lies across that
@@ -11,8 +11,8 @@
 //         stored
 //
 // A quadrilateral is two such triangles, the second across the diagonal from c to t. Where no cell is left across any
-// gate, the first cell that is not stored yet begins anew. share/page/decode.js reads it. Source, in the main: C. Touma,
-// C. Gotsman, Triangle mesh compression (1998); J. Rossignac, Edgebreaker (1999).
+// gate, the first cell that is not stored yet begins anew. share/page/decode.js reads it. Source, in the main: C.
+// Touma, C. Gotsman, Triangle mesh compression (1998); J. Rossignac, Edgebreaker (1999).
 #pragma once
 
 #include <array>

@@ -33,12 +33,12 @@ LAMINA_EXPORT void split_far_field(std::span<const Point> points, std::vector<Ma
 LAMINA_EXPORT void add_outer_walls(std::span<const OuterWallFacts> walls, std::span<const std::vector<Segment>> edges,
                                    std::vector<Marker>& markers);
 
-/// Puts the markers round a domain in a row of blades in the place of the far field. Throws OptionError where a marker has
-/// the name of one.
+/// Puts the markers round a domain in a row of blades in the place of the far field. Throws OptionError where a marker
+/// has the name of one.
 void add_row(std::span<const Marker> row, std::vector<Marker>& markers);
 
-/// Returns the cells of the layer as a mesh of its own, whose points are those of the layer. Regions and layers of cells
-/// are there; pieces and markers are not.
+/// Returns the cells of the layer as a mesh of its own, whose points are those of the layer. Regions and layers of
+/// cells are there; pieces and markers are not.
 Mesh layer_mesh(const layers::Layer& layer, const layers::LayerCells& cells);
 
 /// Joins the layer and the refined subdomains to one mesh, without any search by coordinates. Vertices keep the numbers

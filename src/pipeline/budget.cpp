@@ -19,16 +19,16 @@ namespace {
 /// Counts may be off by this share.
 constexpr double tolerance = 0.03;
 
-/// Finds the scale at which the logarithm of a count is right: by a power of the scale first, and between scales that were
-/// too small and too large once both are known.
+/// Finds the scale at which the logarithm of a count is right: by a power of the scale first, and between scales that
+/// were too small and too large once both are known.
 class ScaleSearch {
 public:
     /// Takes how far the logarithm of the count at the current scale is from what is wanted, and moves on.
     void learn(double miss) {
         (miss < 0 ? low_ : high_) = Trial{scale_, miss};
         if (low_ && high_) return move_between();
-        // The count grows with a power between 1, that of walls alone, and 2, that of an area. By the latter no mesh has too
-        // many vertices, which a limit may refuse; one that has too few is cheap.
+        // The count grows with a power between 1, that of walls alone, and 2, that of an area. By the latter no mesh
+        // has too many vertices, which a limit may refuse; one that has too few is cheap.
         constexpr double power_down = 1.4, power_up = 2, longest_step = 4;
         const double step = core::exp_reproducible(-miss / (miss < 0 ? power_up : power_down));
         scale_ *= std::clamp(step, 1 / longest_step, longest_step);

@@ -27,8 +27,8 @@ using flow::euler::EulerWall;
 
 /// Returns the options of a mesh for flow of this Mach number, without layers.
 CaseOptions options_of_mesh(const FlowConditions& conditions) {
-    // A vortex stands for the lift at the far field below Mach 1 alone. Bow shocks of thick sections are some chords away
-    // at Mach 1.2.
+    // A vortex stands for the lift at the far field below Mach 1 alone. Bow shocks of thick sections are some chords
+    // away at Mach 1.2.
     constexpr double far = 50, far_supersonic = 15, clearly_supersonic = 1.2;
     CaseOptions options;
     options.conditions = {.alpha_deg = conditions.alpha_deg, .chord = conditions.chord};

@@ -13,9 +13,9 @@ void validate_order(const CaseOptions& options);
 /// Throws OptionError where the cells are to be curved and an element has sheets.
 void refuse_curved_sheets(unsigned order, const Geometry& geometry);
 
-/// Makes the cells of a mesh follow these curves of its walls, proves them valid, and records both in the result, with a
-/// warning of parts of edges that are beside the curve and straight. Throws MeshError where the cells of the layer form no columns.
-/// Precondition: order > 1, and no element has sheets.
+/// Makes the cells of a mesh follow these curves of its walls, proves them valid, and records both in the result, with
+/// a warning of parts of edges that are beside the curve and straight. Throws MeshError where the cells of the layer
+/// form no columns. Precondition: order > 1, and no element has sheets.
 void curve_mesh(unsigned order, const surface::WallCurves& curves, MeshResult& result);
 
 }  // namespace lamina::pipeline

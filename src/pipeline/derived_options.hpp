@@ -21,8 +21,8 @@ inline bool decides_on_sizes(const SizingOptions& sizing) { return sizing.backgr
 /// Returns how fast the spacing along walls may grow: with the gradation of the layer's border, or more.
 LAMINA_EXPORT double wall_gradation(const SizingOptions& sizing, double fineness);
 
-/// Returns the limits that a layer of this growth over the walls sets on their spacing. `gradation` is wall_gradation(),
-/// `order` that of the cells.
+/// Returns the limits that a layer of this growth over the walls sets on their spacing. `gradation` is
+/// wall_gradation(), `order` that of the cells.
 LAMINA_EXPORT surface::SpacingLimits spacing_limits(const LayerOptions& layer, const layers::LayerGrowth& growth,
                                                     double gradation, unsigned order);
 
@@ -43,7 +43,8 @@ Geometry part_in_domain(Geometry geometry, const FarFieldOptions& domain, const 
 /// Returns the sizes with the wakes that follow the angle of attack at each angle of a range (FlowConditions::alphas).
 SizingOptions wakes_at_angles(SizingOptions sizing, const FlowConditions& conditions);
 
-/// Returns the sizes with edges short enough for a tunnel or a row of blades, where they do not say how long edges may be.
+/// Returns the sizes with edges short enough for a tunnel or a row of blades, where they do not say how long edges may
+/// be.
 SizingOptions sizes_between_borders(SizingOptions sizing, const FarFieldOptions& far_field, double chord,
                                     double fineness);
 

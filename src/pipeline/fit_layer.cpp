@@ -49,8 +49,8 @@ void require_room_for_layers(const Geometry& geometry, const std::vector<std::ve
                     growth.layers ? "the number of layers or " : "", growth.growth));
 }
 
-/// Returns circles round the triangles with an angle below the bound that no sharp corner excuses. They hold the ends of
-/// the rays beside.
+/// Returns circles round the triangles with an angle below the bound that no sharp corner excuses. They hold the ends
+/// of the rays beside.
 std::vector<layers::Circle> circles_round_unexcused(std::span<const mesh::NarrowTriangle> narrow) {
     constexpr double reach = 1.5;  // in longest edges
     std::vector<layers::Circle> circles;
@@ -185,8 +185,8 @@ void request_in_row(std::vector<std::vector<Point>> fronts, FittedLayer& fitted)
     sources = repeated_in_row(std::move(sources), fitted.far_field);
 }
 
-/// Requests the sizes that the options, the fronts of the rays and the wakes behind their layers ask for. Where a background
-/// mesh decides on sizes, wakes request them of borders alone.
+/// Requests the sizes that the options, the fronts of the rays and the wakes behind their layers ask for. Where a
+/// background mesh decides on sizes, wakes request them of borders alone.
 void request_sizes(FittedLayer& fitted) {
     const layers::Rays& rays = fitted.rays;
     const std::vector<ElementWake>& wakes = fitted.sizes.wakes;
@@ -238,9 +238,9 @@ bool all_layers_fit(const layers::Rays& rays) {
     return true;
 }
 
-/// Prepares the walls anew, with a finer spacing where the layer's border would be divided: rows of cells would end in fans
-/// below division points (docs/decisions/0009). `grow` makes rays on walls. Finer walls ask for finer ones beside them, which
-/// three rounds of halving reach.
+/// Prepares the walls anew, with a finer spacing where the layer's border would be divided: rows of cells would end in
+/// fans below division points (docs/decisions/0009). `grow` makes rays on walls. Finer walls ask for finer ones beside
+/// them, which three rounds of halving reach.
 void refine_walls_below_borders(double least_gradation, PreparedWalls& walls,
                                 const std::function<FittedLayer(surface::PreparedSurfaces)>& grow,
                                 std::vector<SizeSource>& on_outer_walls, FittedLayer& fitted) {
@@ -292,7 +292,8 @@ bool end_columns_below_obtuse_cells(
 /// Ends columns below cells with an angle above 150 degrees, first below those far from the wall. First layers stay
 /// (docs/layer.md). Returns whether it changed any.
 bool end_obtuse_columns(LayerTopology topology, const DecompositionOptions& decomposition, FittedLayer& fitted) {
-    // Cells far from the wall go first: what ends below cells in a cleft can be worse than these, and would hide the gain.
+    // Cells far from the wall go first: what ends below cells in a cleft can be worse than these, and would hide the
+    // gain.
     constexpr std::uint16_t far_from_wall = 10, above_first = 1;
     const auto obtuse_cells_of = [&](const layers::Rays& rays) {
         const layers::Layer layer =

@@ -70,9 +70,9 @@ struct FittedLayer {
 PreparedWalls prepare_walls(const Geometry& given, const SurfaceOptions& options, surface::SpacingLimits limits,
                             double chord);
 
-/// Makes rays on these walls. Walls become finer where the layer's border would be divided, and columns end below cells with
-/// angles above 150 degrees. Behind the layers that go on along a wake, its sources request sizes. Throws OptionError
-/// where layers do not fit into the far field.
+/// Makes rays on these walls. Walls become finer where the layer's border would be divided, and columns end below cells
+/// with angles above 150 degrees. Behind the layers that go on along a wake, its sources request sizes. Throws
+/// OptionError where layers do not fit into the far field.
 FittedLayer fit_layer(PreparedWalls walls, const LayerRequest& layer, const DomainRequest& domain,
                       const OuterSizes& sizes, const ReferenceConditions& conditions);
 
@@ -80,8 +80,8 @@ FittedLayer fit_layer(PreparedWalls walls, const LayerRequest& layer, const Doma
 layers::Layer close_border(const FittedLayer& fitted);
 
 /// If there are isotropic triangles whose angle is below the bound, and which no sharp corner excuses: shortens the
-/// rays that end beside them (`thin`), or, where no layer is left and elsewhere, the edges of the borders there. Returns
-/// whether it changed anything.
+/// rays that end beside them (`thin`), or, where no layer is left and elsewhere, the edges of the borders there.
+/// Returns whether it changed anything.
 bool make_room_at_narrow_triangles(std::span<const mesh::NarrowTriangle> narrow, bool thin, FittedLayer& fitted);
 
 }  // namespace lamina::pipeline

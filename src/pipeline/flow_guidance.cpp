@@ -33,8 +33,8 @@ constexpr double thickest_layer = 0.08;
 constexpr double max_change = 0.05;
 /// No spacing is smaller than this for the flow's sake, in chords of the configuration.
 constexpr double min_spacing = 2e-4;
-/// Spacing at the corners of a base, in first heights; less where the flow passes them faster than the free stream. With
-/// 100, y+ is a quarter too large there (docs/layer.md).
+/// Spacing at the corners of a base, in first heights; less where the flow passes them faster than the free stream.
+/// With 100, y+ is a quarter too large there (docs/layer.md).
 constexpr double base_corner_heights = 60;
 
 /// Adds the heights along a side, from its stagnation point to its trailing edge.
@@ -80,8 +80,8 @@ void add_pressure_changes(const std::vector<FlowPoint>& side, const std::optiona
     }
 }
 
-/// Returns compressible flow beyond the critical Mach number. None where it is too fast to solve, and where no mesh can be
-/// made to solve it on.
+/// Returns compressible flow beyond the critical Mach number. None where it is too fast to solve, and where no mesh can
+/// be made to solve it on.
 std::optional<CompressibleFlow> flow_beyond_critical(const Geometry& geometry, const FlowConditions& conditions,
                                                      const Flow& flow) {
     if (flow.estimated || !is_beyond_critical(flow, conditions) || *conditions.mach > flow::euler::largest_mach)
@@ -111,8 +111,9 @@ double nearest_height(Point p, std::span<const layers::WallHeight> chain) {
     return nearest->height;
 }
 
-/// Fits the heights of an element to its sheets. Both sides of one by itself are as near to each vertex as each other, and
-/// get the same heights. On those that stand on walls layers are no higher than what is left of the sheet up to its tip.
+/// Fits the heights of an element to its sheets. Both sides of one by itself are as near to each vertex as each other,
+/// and get the same heights. On those that stand on walls layers are no higher than what is left of the sheet up to its
+/// tip.
 void fit_to_sheets(const Element& element, std::vector<layers::WallHeight>& chain) {
     if (chain.empty()) return;
     if (geometry::is_sheet(element)) {

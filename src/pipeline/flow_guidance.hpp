@@ -19,8 +19,8 @@ namespace lamina::pipeline {
 std::vector<double> first_heights_of_flow(const Flow& flow, double y_plus, double reynolds);
 
 /// Returns, for each element, the largest skin friction times the wall's density, both by the free stream. The wall is
-/// adiabatic with a recovery factor of 0.89, the cube root of the Prandtl number. Empty without layers. Source: F. M. White,
-/// Viscous Fluid Flow, 3rd ed. (2006), section 7-1.
+/// adiabatic with a recovery factor of 0.89, the cube root of the Prandtl number. Empty without layers. Source: F. M.
+/// White, Viscous Fluid Flow, 3rd ed. (2006), section 7-1.
 std::vector<double> wall_frictions(const CompressibleFlow& flow);
 
 /// Layers are this many times as thick as the boundary layer, which solvers find up to a fifth thicker. Some of it is
@@ -32,8 +32,8 @@ inline constexpr double room_above = 1.35;
 std::vector<layers::WallHeight> heights_of_flow(const Flow& flow);
 
 /// Returns spacings of the walls with which the speed of the flow changes little from one vertex to the next: at the
-/// stagnation point, and on both sides of a suction peak. Spacings at the corners of bases follow from the first heights.
-/// All others are divided by LayerGrowth::fineness.
+/// stagnation point, and on both sides of a suction peak. Spacings at the corners of bases follow from the first
+/// heights. All others are divided by LayerGrowth::fineness.
 std::vector<geometry::WallSpacing> spacings_of_flow(const Flow& flow, const layers::LayerGrowth& growth);
 
 /// Returns the smallest of these spacings on each resampled element.
@@ -79,10 +79,11 @@ struct FlowGuidance {
     std::vector<AngleDecisions> angles;  ///< FlowDecisions::angles
 };
 
-/// Solves the flow round these bodies between the walls of the domain. Its first heights for the y+ of the options, its least heights and wakes go to `growth`.
-/// Beyond the critical Mach number it solves the compressible flow, too, takes first heights from its layers if it has any,
-/// and makes walls and sizes fine at shocks. For several angles of attack the mesh gets the smallest of their first heights
-/// and spacings, the largest of their least heights, and the fan of their wakes.
+/// Solves the flow round these bodies between the walls of the domain. Its first heights for the y+ of the options, its
+/// least heights and wakes go to `growth`. Beyond the critical Mach number it solves the compressible flow, too, takes
+/// first heights from its layers if it has any, and makes walls and sizes fine at shocks. For several angles of attack
+/// the mesh gets the smallest of their first heights and spacings, the largest of their least heights, and the fan of
+/// their wakes.
 FlowGuidance guide_by_flow(const Geometry& geometry, const FlowWalls& walls, const FlowConditions& flow_conditions,
                            const LayerOptions& options, const ReferenceConditions& conditions,
                            layers::LayerGrowth& growth);

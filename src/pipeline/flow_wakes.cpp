@@ -40,10 +40,10 @@ constexpr double inner_start = 4, inner_growth_attached = 0.06, inner_growth_at_
 /// Behind a base that is wider than the inner wake there are two mixing layers, from its corners, with fluid at rest
 /// between them. They meet after this many widths of the base: where both together are as wide as it.
 constexpr double mixing_length = 0.5 / inner_growth_at_rest;
-/// Fluid at rest between two shear layers, in its width where it begins: its wake widens by 0.1 on either side per length; both
-/// shear layers lie within it. Edges are as long as the first number up to the first distance, and grow to the second number at
-/// the second distance, where the wake ends. Resolved vortex streets behind cylinders have 30 to 50 edges across the body
-/// (P. Parnaudeau, J. Carlier, D. Heitz, E. Lamballais, Phys. Fluids 20 (2008), 085101).
+/// Fluid at rest between two shear layers, in its width where it begins: its wake widens by 0.1 on either side per
+/// length; both shear layers lie within it. Edges are as long as the first number up to the first distance, and grow to
+/// the second number at the second distance, where the wake ends. Resolved vortex streets behind cylinders have 30 to
+/// 50 edges across the body (P. Parnaudeau, J. Carlier, D. Heitz, E. Lamballais, Phys. Fluids 20 (2008), 085101).
 constexpr double open_half_width = 0.6, open_growth = 0.1, open_edge = 0.025, open_even_length = 5,
                  open_last_edge = 0.1, open_length = 20;
 /// Lift of viscous over that of potential flow, and how far it may be from this. It is 0.86 to 0.9 where the flow is
@@ -124,8 +124,8 @@ std::vector<WakeSource> make_chain(const MeasuredLine& line, const std::function
 
 double base_width(const ElementFlow& element) { return distance(element.upper.back().at, element.lower.back().at); }
 
-/// Returns the width of the fluid at rest in a layer that has separated. Such a layer keeps its momentum thickness, so it
-/// is what the displacement exceeds that at separation by.
+/// Returns the width of the fluid at rest in a layer that has separated. Such a layer keeps its momentum thickness, so
+/// it is what the displacement exceeds that at separation by.
 double at_rest_behind(const FlowPoint& end) {
     if (end.state != BoundaryLayerState::separated) return 0;
     return std::max(end.displacement - flow::separation_shape * end.momentum, 0.0);
@@ -226,8 +226,8 @@ double free_length(const Flow& flow, const ElementFlow& own, Point from, Point d
     return least;
 }
 
-/// Returns the envelope of both shear layers behind an element that the flow has left. It begins beside the first place of
-/// separation and follows the free stream:
+/// Returns the envelope of both shear layers behind an element that the flow has left. It begins beside the first place
+/// of separation and follows the free stream:
 ///
 ///       ______________ - - - -     half-width 0.6 D + 0.1 s
 ///      /above

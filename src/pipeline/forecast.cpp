@@ -71,8 +71,8 @@ double median_friction(std::vector<FrictionOnWall> pieces) {
     return pieces.back().friction;
 }
 
-/// Returns y+ on a wall where the flow is known. Compressible flow before the mesh has the largest friction, and where the
-/// wall has less, the incompressible flow says how much less.
+/// Returns y+ on a wall where the flow is known. Compressible flow before the mesh has the largest friction, and where
+/// the wall has less, the incompressible flow says how much less.
 YPlusRange y_plus_on(const ElementFlow& flow, double largest_friction, double first_height,
                      const ReferenceConditions& conditions) {
     const std::vector<FrictionOnWall> pieces = friction_along(flow);

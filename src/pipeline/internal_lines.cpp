@@ -1,5 +1,5 @@
-// Lines are cut by one constrained triangulation of bodies and lines, in which crossings are vertices. They then stand in
-// the way of rays as thin outlines, and are lines between subdomains in the outer region.
+// Lines are cut by one constrained triangulation of bodies and lines, in which crossings are vertices. They then stand
+// in the way of rays as thin outlines, and are lines between subdomains in the outer region.
 #include "pipeline/internal_lines.hpp"
 
 #include <algorithm>
@@ -119,7 +119,8 @@ bool is_inside_body(const Geometry& geometry, Point p) {
     });
 }
 
-/// Returns the point of a wall that an end of a line outside the bodies is moved to, which is near it or known to be on walls.
+/// Returns the point of a wall that an end of a line outside the bodies is moved to, which is near it or known to be on
+/// walls.
 Point attached(Point end, bool is_known, const Geometry& geometry, std::span<const WallEdge> walls) {
     const double reach = is_known ? HUGE_VAL : 0.5;  // of the edge
     double nearest = HUGE_VAL;
@@ -297,8 +298,8 @@ Arrangement arrange(std::span<const InternalLine> lines, const Strip& strip, con
 /// Vertices that walls get, per element.
 using InsertedVertices = std::vector<VerticesOnEdges>;
 
-/// Returns the vertices of lines on walls that become vertices of these, and replaces others in `moved` by the vertex of
-/// the wall that they are near to.
+/// Returns the vertices of lines on walls that become vertices of these, and replaces others in `moved` by the vertex
+/// of the wall that they are near to.
 InsertedVertices settle_on_walls(const Arrangement& arrangement, std::span<const char> used, std::size_t elements,
                                  std::vector<std::size_t>& moved) {
     InsertedVertices inserted(elements);

@@ -39,16 +39,16 @@ struct LineGraph {
     std::vector<EndsOnWalls> ends{};  ///< of the lines that were given
 };
 
-/// Cuts lines where they cross each other, the bodies, walls of the domain and its line of symmetry, and leaves out what
-/// lies behind these. A crossing with a wall of a body becomes a vertex of the wall; one that is nearer to a vertex than
-/// three tenths of the edge becomes that vertex. So does an end of a line that is nearer to a wall than half its edge, or that
-/// was so on coarser walls, as `known` says if it is not empty. Bodies that a line of symmetry cuts stay mirrored. Throws
-/// OptionError for a line outside the far field.
+/// Cuts lines where they cross each other, the bodies, walls of the domain and its line of symmetry, and leaves out
+/// what lies behind these. A crossing with a wall of a body becomes a vertex of the wall; one that is nearer to a
+/// vertex than three tenths of the edge becomes that vertex. So does an end of a line that is nearer to a wall than
+/// half its edge, or that was so on coarser walls, as `known` says if it is not empty. Bodies that a line of symmetry
+/// cuts stay mirrored. Throws OptionError for a line outside the far field.
 LineGraph arrange_lines(std::span<const InternalLine> lines, const decoupling::FarField& far_field, Geometry& geometry,
                         std::span<const EndsOnWalls> known = {});
 
-/// Returns sizes at the vertices of lines: their distances from other lines that they are no part of, and from copies that
-/// are so far along y.
+/// Returns sizes at the vertices of lines: their distances from other lines that they are no part of, and from copies
+/// that are so far along y.
 std::vector<SizeSource> sizes_between(const LineGraph& graph, std::span<const double> shifts);
 
 /// Returns the sizes that lines ask for along themselves.
@@ -57,12 +57,12 @@ std::vector<SizeSource> sizes_along(std::span<const InternalLine> lines);
 /// Numbers at the ends of each piece of a line.
 using AtEnds = std::vector<std::array<double, 2>>;
 
-/// Returns how high the layer may be along each piece of a line from its ends: nearly half of the piece, or 0 where an end is
-/// on no wall.
+/// Returns how high the layer may be along each piece of a line from its ends: nearly half of the piece, or 0 where an
+/// end is on no wall.
 AtEnds room_at_feet(const LineGraph& graph);
 
-/// Returns how high the front of these rays is along each piece from its ends; 0 where no ray runs along it, or where none
-/// runs along another line that ends at the same vertex.
+/// Returns how high the front of these rays is along each piece from its ends; 0 where no ray runs along it, or where
+/// none runs along another line that ends at the same vertex.
 AtEnds heights_at_feet(const LineGraph& graph, const layers::Rays& rays);
 
 /// Returns the lines as obstacles, which stop short of vertices and walls by a tenth of this height, or by a

@@ -156,8 +156,8 @@ void add_foot(const layers::LineFoot& foot, std::optional<double> symmetry, std:
     feet.push_back({geometry::image_of(foot.at, *symmetry), {foot.direction.x, -foot.direction.y}, foot.room});
 }
 
-/// Adds a piece of a line, which stops short of vertices by this gap, or above these heights of the layer at its ends, and the
-/// feet at these.
+/// Adds a piece of a line, which stops short of vertices by this gap, or above these heights of the layer at its ends,
+/// and the feet at these.
 void add_piece(const LineGraph& graph, const Segment& piece, double gap, const std::array<double, 2>& at_feet,
                std::optional<double> symmetry, layers::Obstacles& obstacles) {
     constexpr double above_layer = 1.1;
@@ -233,8 +233,8 @@ bool meets_border(const PlacedSegment& line, const PlacedSegment& edge) {
 
 namespace {
 
-/// Returns the vertices along a ray, from the wall to the front. Beside a ray of the same origin without layers the border
-/// runs along the lowest piece, which it may divide.
+/// Returns the vertices along a ray, from the wall to the front. Beside a ray of the same origin without layers the
+/// border runs along the lowest piece, which it may divide.
 std::vector<VertexId> vertices_along(const layers::Layer& layer, std::size_t element, std::size_t i) {
     const std::vector<layers::Ray>& rays = layer.rays[element];
     const std::vector<VertexId>& border = layer.borders[element];

@@ -15,7 +15,8 @@ namespace lamina::pipeline {
 
 namespace {
 
-// Measured: the processor time and the memory that the sizes and the decoupling take for each edge of the layer's border.
+// Measured: the processor time and the memory that the sizes and the decoupling take for each edge of the layer's
+// border.
 constexpr double seconds_per_border_edge = 100e-6, bytes_per_border_edge = 8e3;
 
 /// Returns the number of triangles in the layer, as many as rows of cells between neighbouring rays have halves.

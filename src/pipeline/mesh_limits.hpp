@@ -24,16 +24,17 @@ struct WorkBudget {
     WorkCost cost;
 };
 
-/// Throws LimitError where the number of edges that walls are to have asks for more than the limits allow: a triangle, and
-/// an edge of the layer's border, for each. It takes no time.
+/// Throws LimitError where the number of edges that walls are to have asks for more than the limits allow: a triangle,
+/// and an edge of the layer's border, for each. It takes no time.
 void require_surface_points_within(const SurfaceOptions& options, std::size_t elements, const WorkBudget& budget);
 
-/// Throws LimitError where the number of layers alone asks for far more triangles than the limits allow. It takes no time.
+/// Throws LimitError where the number of layers alone asks for far more triangles than the limits allow. It takes no
+/// time.
 void require_layers_within(const layers::LayerGrowth& growth, const Geometry& walls, const WorkBudget& budget);
 
-/// Throws LimitError where these walls, which the layer is to grow from, ask for more than the limits allow, or for more
-/// than a million rays or edges of the layer's border: where walls are near to each other, these edges are shorter than
-/// the gap. Takes less than a second.
+/// Throws LimitError where these walls, which the layer is to grow from, ask for more than the limits allow, or for
+/// more than a million rays or edges of the layer's border: where walls are near to each other, these edges are shorter
+/// than the gap. Takes less than a second.
 void require_walls_within(const SurfaceOptions& options, const Geometry& prepared, const WorkBudget& budget);
 
 /// Estimates the run from the layer and the region beyond it, for cells of this order. Throws LimitError where it would

@@ -44,8 +44,8 @@ struct OutlinedMesh {
 OutlinedMesh outline_mesh(const FittedLayer& fitted, const LayerOptions& layer_options, const SurfaceOptions& surface,
                           StageClock& clock, MeshResult& result);
 
-/// Returns all markers of the mesh. The far field of tunnels is divided into inlet and outlet, and others if the options ask
-/// for it.
+/// Returns all markers of the mesh. The far field of tunnels is divided into inlet and outlet, and others if the
+/// options ask for it.
 std::vector<Marker> markers_of_mesh(const FittedLayer& fitted, const OutlinedMesh& outlined,
                                     const AssembleOptions& options, const FarFieldOptions& domain,
                                     const DecoupledBorders& borders, MeshDriver& driver);
@@ -61,9 +61,9 @@ void finish_check(mesh::PiecewiseCheck& check, const MadePieces& pieces, std::sp
 /// Moves the cells to the result, but for markers, with what is known of layer and refinement.
 void take_cells(const layers::Layer& layer, MadePieces& pieces, MeshResult& result);
 
-/// Doubles the vertices of two-sided lines, closes sheets, and checks the mesh as a whole, if there are any: pieces know no
-/// lines, and sheets with a gap. Beside lines the summary of walls stays that of the pieces, since those with two sides have
-/// no layers.
+/// Doubles the vertices of two-sided lines, closes sheets, and checks the mesh as a whole, if there are any: pieces
+/// know no lines, and sheets with a gap. Beside lines the summary of walls stays that of the pieces, since those with
+/// two sides have no layers.
 void complete_walls_without_thickness(std::span<const InternalLine> lines, double min_angle_deg, MadeMesh& made);
 
 /// Gives what is left of the pieces, beside the mesh, to who asked for it.

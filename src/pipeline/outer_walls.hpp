@@ -26,8 +26,9 @@ struct OuterWallFacts {
 };
 
 /// Returns the walls of this far field, the lower one first. A line of symmetry is one of them unless it cuts bodies.
-/// Walls at which the flow sticks, fixed or moving, have layers unless these are disabled; slip walls have none. The first
-/// height is the wall's own or that of `growth`. Throws OptionError for a y+ without a Reynolds number, and where a height contradicts the thickness.
+/// Walls at which the flow sticks, fixed or moving, have layers unless these are disabled; slip walls have none. The
+/// first height is the wall's own or that of `growth`. Throws OptionError for a y+ without a Reynolds number, and where
+/// a height contradicts the thickness.
 std::vector<OuterWallFacts> outer_wall_facts(const decoupling::FarField& far_field, const FarFieldOptions& options,
                                              const Geometry& geometry, const LayerOptions& layer,
                                              const ReferenceConditions& conditions, const layers::LayerGrowth& growth);
@@ -50,8 +51,8 @@ struct RegionBorders {
 const char* symmetry_name(const FarFieldOptions& options);
 
 /// Closes the border of the domain: sides without walls are divided by the size field, from the ends of one wall to
-/// those of the other or to the corners of the far field. So is a line of symmetry between the bodies that it cuts and the
-/// ends of lines.
+/// those of the other or to the corners of the far field. So is a line of symmetry between the bodies that it cuts and
+/// the ends of lines.
 RegionBorders close_domain(const layers::Layer& layer, const decoupling::FarField& far_field, const SizeField& size,
                            const LineGraph& lines);
 

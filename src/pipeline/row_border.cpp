@@ -36,8 +36,8 @@ void fill_gaps(geometry::Channel& channel) {
     }
 }
 
-/// The part of the room between blades where the border may run, in columns; and so many ahead of them and behind, where
-/// nothing is in the way.
+/// The part of the room between blades where the border may run, in columns; and so many ahead of them and behind,
+/// where nothing is in the way.
 struct Lane {
     std::vector<double> low, high;
     std::size_t run_out = 0;
@@ -59,14 +59,15 @@ Lane lane_in(const geometry::Channel& channel, double pitch) {
     return lane;
 }
 
-/// Returns y of a smooth curve along a lane, one per column. It begins as its middle, and as a line along x ahead and behind.
+/// Returns y of a smooth curve along a lane, one per column. It begins as its middle, and as a line along x ahead and
+/// behind.
 std::vector<double> smooth_curve(const Lane& lane, double smoothed_columns) {
     const std::size_t n = lane.low.size();
     const auto middle = [&](std::size_t k) { return 0.5 * (lane.low[k] + lane.high[k]); };
     std::vector<double> y(n), next(n);
     for (std::size_t k = 0; k < n; ++k) y[k] = middle(std::clamp(k, lane.run_out, n - lane.run_out - 1));
-    // Each round takes the mean of two columns, which smooths over their distance times the square root of the number of
-    // rounds. Shorter distances take away what longer ones leave between columns.
+    // Each round takes the mean of two columns, which smooths over their distance times the square root of the number
+    // of rounds. Shorter distances take away what longer ones leave between columns.
     for (const std::size_t apart : {8, 4, 2, 1}) {
         const double rounds = smoothed_columns / static_cast<double>(apart);
         const int count = apart == 8 ? static_cast<int>(rounds * rounds) : 40;
@@ -81,8 +82,8 @@ std::vector<double> smooth_curve(const Lane& lane, double smoothed_columns) {
     return y;
 }
 
-/// Returns sizes along a border that has lines beside it: sizes that grow from layers do not know of these, and edges as
-/// long as what is kept to both sides cut no corner of the curve that far.
+/// Returns sizes along a border that has lines beside it: sizes that grow from layers do not know of these, and edges
+/// as long as what is kept to both sides cut no corner of the curve that far.
 std::vector<SizeSource> sources_along(const geometry::Channel& channel, const Lane& lane, std::span<const double> y) {
     constexpr std::size_t columns_apart = 8;
     std::vector<SizeSource> sources;

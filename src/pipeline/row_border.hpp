@@ -18,8 +18,8 @@ struct RowBorder {
     std::vector<SizeSource> sources;  ///< keep its edges out of lines
 };
 
-/// Returns the border below a blade with these fronts of layers and the lines beside it. Throws OptionError where layers or
-/// lines close the channel.
+/// Returns the border below a blade with these fronts of layers and the lines beside it. Throws OptionError where
+/// layers or lines close the channel.
 RowBorder border_below(std::vector<std::vector<Point>> fronts, std::span<const std::vector<Point>> lines,
                        const decoupling::FarField& far_field);
 

@@ -163,10 +163,10 @@ MadeMesh make_mesh(const FittedLayer& fitted, const CaseOptions& options, MeshDr
 
 namespace {
 
-/// Makes meshes on shorter rays and with shorter edges of borders, for as long as fewer and fewer triangles have an angle
-/// below the bound that no sharp corner excuses, and returns the best. A bound above the proved one is no promise, so nothing
-/// is done for it. Room for one triangle takes some from others: two rounds that leave more than nine tenths of them end the
-/// search, and twelve in any case.
+/// Makes meshes on shorter rays and with shorter edges of borders, for as long as fewer and fewer triangles have an
+/// angle below the bound that no sharp corner excuses, and returns the best. A bound above the proved one is no
+/// promise, so nothing is done for it. Room for one triangle takes some from others: two rounds that leave more than
+/// nine tenths of them end the search, and twelve in any case.
 MadeMesh make_mesh_until_angles_hold(FittedLayer& fitted, const CaseOptions& options, MeshDriver& driver,
                                      StageClock& clock) {
     constexpr int max_rounds_without_gain = 2, max_rounds = 12;

@@ -1,5 +1,5 @@
-// All stages in their order. run(), and plan_layer() and make_mesh() that it is made of, are the only functions that see the
-// options of all stages (CaseOptions): each stage below them gets its own.
+// All stages in their order. run(), and plan_layer() and make_mesh() that it is made of, are the only functions that
+// see the options of all stages (CaseOptions): each stage below them gets its own.
 #pragma once
 
 #include <string>
@@ -27,7 +27,8 @@ struct PlannedLayer {
 /// Reads the inputs as the options say. Halves above a line of symmetry are closed along it.
 Geometry read_inputs(const std::vector<std::string>& inputs, GeometryOptions options, const FarFieldOptions& domain);
 
-/// Runs the stages up to the rays. Throws OptionError, and LimitError where walls or options ask for too much at this cost.
+/// Runs the stages up to the rays. Throws OptionError, and LimitError where walls or options ask for too much at this
+/// cost.
 PlannedLayer plan_layer(const Geometry& whole, const CaseOptions& options, const WorkCost& cost, StageClock& clock);
 
 /// Makes a mesh round this layer. Throws MeshError where it is not valid, and LimitError.

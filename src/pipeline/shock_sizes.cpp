@@ -144,9 +144,9 @@ PressureRise pressure_rise(const CompressibleFlow& flow, const Triangle& triangl
     return {middle, edge, steepness * edge / lowest, normal_mach};
 }
 
-/// Adds sources in the triangles of shocks, where flow crosses lines of equal pressure faster than sound as the pressure
-/// rises. Sizes are a share of the edges there: far away the flow says less well where the shock is. What is a chord behind
-/// the bodies acts on nothing ahead of it. Source: D. Lovely, R. Haimes, AIAA paper 99-3285 (1999).
+/// Adds sources in the triangles of shocks, where flow crosses lines of equal pressure faster than sound as the
+/// pressure rises. Sizes are a share of the edges there: far away the flow says less well where the shock is. What is a
+/// chord behind the bodies acts on nothing ahead of it. Source: D. Lovely, R. Haimes, AIAA paper 99-3285 (1999).
 void add_sources_in_shocks(const CompressibleFlow& flow, double fineness, std::vector<SizeSource>& sources) {
     constexpr double least_share = 0.05;  // shocks of Mach 1.1 spread over five triangles
     constexpr double size_over_edge = 0.25, reach_over_edge = 0.25, chords_behind = 1;

@@ -11,8 +11,8 @@ namespace lamina::pipeline {
 
 namespace {
 
-/// Returns the element whose outline a wall follows: the nearest one to its first point, but no farther away than the next point;
-/// nothing for walls of the domain.
+/// Returns the element whose outline a wall follows: the nearest one to its first point, but no farther away than the
+/// next point; nothing for walls of the domain.
 std::optional<std::size_t> element_of(const SizedWall& wall, const Geometry& geometry) {
     const Point p = wall.points[0];
     std::optional<std::size_t> nearest;
@@ -29,8 +29,8 @@ std::optional<std::size_t> element_of(const SizedWall& wall, const Geometry& geo
     return nearest;
 }
 
-/// Returns the length at which y+ is 1, at each point. Where friction is below a tenth of its mean, as round stagnation points,
-/// it is that of a tenth: the friction goes with the square of 1 / length.
+/// Returns the length at which y+ is 1, at each point. Where friction is below a tenth of its mean, as round stagnation
+/// points, it is that of a tenth: the friction goes with the square of 1 / length.
 std::vector<double> bounded_units(const std::vector<double>& units) {
     constexpr double least_friction = 0.1;
     double friction = 0;

@@ -31,8 +31,8 @@ public:
     void begin(const std::string& stage, const std::optional<RunEstimate>& estimate = {});
     /// Adds the time since the last end to that of a stage.
     void end(double StageSeconds::*stage);
-    /// Ends stages that have shared the threads: their common time is divided among them in proportion to the time of the
-    /// threads. Returns the seconds of each thread.
+    /// Ends stages that have shared the threads: their common time is divided among them in proportion to the time of
+    /// the threads. Returns the seconds of each thread.
     std::vector<ThreadSeconds> end_shared(const core::BusyTimes& times);
     /// Returns the times so far.
     StageSeconds seconds() const;

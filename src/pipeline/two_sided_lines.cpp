@@ -30,7 +30,8 @@ public:
         for (const auto& [v, corners] : corners_)
             for (const Corner& corner : corners) *corner.place = corner.copy;
     }
-    /// Returns a directed edge with the copies that the cell on its left has; the edge itself where there is no such cell.
+    /// Returns a directed edge with the copies that the cell on its left has; the edge itself where there is no such
+    /// cell.
     Segment on_left(Segment edge) const {
         Segment result = edge;
         if (const Corner* a = corner_with(edge.a, edge.b, true)) result.a = a->copy;
@@ -50,8 +51,8 @@ private:
             if (const auto found = corners_.find(v[i]); found != corners_.end())
                 found->second.push_back({&v[i], v[(i + 1) % n], v[(i + n - 1) % n], v[i]});
     }
-    /// Numbers the copies of a vertex: one for each fan of cells between edges of lines and of the boundary. The first fan
-    /// keeps the vertex.
+    /// Numbers the copies of a vertex: one for each fan of cells between edges of lines and of the boundary. The first
+    /// fan keeps the vertex.
     void number(VertexId v, std::vector<Corner>& corners) {
         std::vector<char> done(corners.size());
         bool is_first = true;

@@ -194,9 +194,9 @@ void warn_of_transition(const MeshResult& result, const LayerOptions& options, s
 void warn_of_areas(const MeshResult& result, const LayerOptions& options, const Mesh& layer,
                    std::vector<Warning>& warnings) {
     constexpr double max_ratio = 50;
-    // Where a fan turns round a corner, its first cell is a triangle as high as the first layer, and the next cell is as
-    // long as the wall's edge: 70 to 5,000 times as large on ordinary sections, up to 18,000 at a y+ of 0.5. More comes
-    // from edges beside corners that are out of proportion, as bases of one edge in files.
+    // Where a fan turns round a corner, its first cell is a triangle as high as the first layer, and the next cell is
+    // as long as the wall's edge: 70 to 5,000 times as large on ordinary sections, up to 18,000 at a y+ of 0.5. More
+    // comes from edges beside corners that are out of proportion, as bases of one edge in files.
     constexpr double max_beside_fans = 2e4;
     const QualitySummary& quality = result.check.layer;
     if (quality.max_neighbour_area_ratio <= max_ratio) return;
@@ -237,7 +237,8 @@ void warn_of_first_height(const MeshResult& result, const LayerOptions& options,
                                                height, share, chord)});
 }
 
-/// Says where the Reynolds number is that of no flow, or velocity and viscosity are in other units than the coordinates.
+/// Says where the Reynolds number is that of no flow, or velocity and viscosity are in other units than the
+/// coordinates.
 void warn_of_reynolds(const MeshResult& result, const FlowConditions& conditions, std::vector<Warning>& warnings) {
     const std::string& unit = result.geometry.elements.front().unit;
     if (const auto doubt = doubt_of_reynolds(conditions, result.conditions, unit))

@@ -21,8 +21,8 @@ struct WorstPlaces {
 std::vector<Warning> warnings_of_input(const MeshResult& result, const SurfaceOptions& surface,
                                        const FlowConditions& conditions, const AssembleOptions& markers);
 
-/// Returns the warnings about the mesh of a result that is complete but for them. The mesh `layer` holds the cells of the
-/// layer, and perhaps others.
+/// Returns the warnings about the mesh of a result that is complete but for them. The mesh `layer` holds the cells of
+/// the layer, and perhaps others.
 std::vector<Warning> warnings_of_mesh(const MeshResult& result, const LayerOptions& options, const WorstPlaces& worst,
                                       const Mesh& layer);
 

@@ -48,8 +48,8 @@ private:
     Box bounds_;  ///< the window and a few pixels round it
 };
 
-/// Lets `draw` draw on an image of its own, which is put over the whole picture, or on the canvas itself where memory is
-/// lacking. Of vector graphics many small parts become one image so.
+/// Lets `draw` draw on an image of its own, which is put over the whole picture, or on the canvas itself where memory
+/// is lacking. Of vector graphics many small parts become one image so.
 void draw_on_image(Canvas& canvas, const PictureView& view, const std::function<void(Canvas&)>& draw);
 
 }  // namespace lamina::plot

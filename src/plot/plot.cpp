@@ -56,8 +56,8 @@ LineWidths line_widths(const std::vector<VisibleCell>& cells, const PictureView&
     return {edge, std::clamp(3.3 * edge, 1.6 * unit, 4 * unit), 2 * edge};
 }
 
-/// Returns the share of its full width and ink that an edge keeps where the thinner one of its cells is so thin: as much
-/// as lets the edges of many such cells side by side cover half of the paper, however thin they are.
+/// Returns the share of its full width and ink that an edge keeps where the thinner one of its cells is so thin: as
+/// much as lets the edges of many such cells side by side cover half of the paper, however thin they are.
 double kept_share(double thickness, double width) { return std::min(1.0, 0.5 * thickness / width); }
 
 /// Returns the share of a thin cell that its edges would cover. Half of each is the neighbour's.

@@ -22,8 +22,8 @@ MetricTensor with_ratio(const MetricTensor& m, double max_ratio) {
     return s.small >= least ? m : with_eigenvalues(s, s.large, least);
 }
 
-/// Lets sizes grow no faster than by `growth` per unit of distance: the metric of each vertex holds at its neighbours with sizes
-/// that have grown, and both are intersected. Vertices whose metric has changed are visited again.
+/// Lets sizes grow no faster than by `growth` per unit of distance: the metric of each vertex holds at its neighbours
+/// with sizes that have grown, and both are intersected. Vertices whose metric has changed are visited again.
 /// Source: F. Alauzet, Finite Elem. Anal. Des. 46 (2010), section 4, growth in metric space.
 class Gradation {
 public:

@@ -8,8 +8,8 @@
 
 namespace lamina::remeshing {
 
-/// Returns the metric limited in its ratios, scaled to a number of vertices and graded, in that order and as the options say.
-/// Throws InputError where a tensor is no metric.
+/// Returns the metric limited in its ratios, scaled to a number of vertices and graded, in that order and as the
+/// options say. Throws InputError where a tensor is no metric.
 std::vector<MetricTensor> asked_metric(const MeshView& mesh, std::span<const MetricTensor> metric,
                                        const RemeshOptions& options);
 

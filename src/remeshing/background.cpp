@@ -1,5 +1,5 @@
-// The walk is a remembering stochastic walk, which ends in any triangulation. Source: O. Devillers, S. Pion, M. Teillaud,
-// Walking in a triangulation, Int. J. Found. Comput. Sci. 13 (2002).
+// The walk is a remembering stochastic walk, which ends in any triangulation. Source: O. Devillers, S. Pion, M.
+// Teillaud, Walking in a triangulation, Int. J. Found. Comput. Sci. 13 (2002).
 #include "remeshing/background.hpp"
 
 #include <algorithm>

@@ -12,8 +12,8 @@
 
 namespace lamina::remeshing {
 
-/// A metric whose tensor of sizes, M^(-1/2), is linear in each triangle: an isotropic one has linear sizes, as size fields with a
-/// gradation have. Source: Borouchaki et al. 1997, interpolation of metrics.
+/// A metric whose tensor of sizes, M^(-1/2), is linear in each triangle: an isotropic one has linear sizes, as size
+/// fields with a gradation have. Source: Borouchaki et al. 1997, interpolation of metrics.
 class BackgroundMetric {
 public:
     /// Takes the triangles of a mesh, with its metrics, as they are now.
@@ -24,8 +24,8 @@ public:
         MetricTensor metric;
         std::uint32_t triangle;
     };
-    /// Returns the metric at a point by a walk from a triangle near it. A point beyond the border, where rounding puts those of
-    /// straight lines, has the metric of a place on the border.
+    /// Returns the metric at a point by a walk from a triangle near it. A point beyond the border, where rounding puts
+    /// those of straight lines, has the metric of a place on the border.
     Sample at(Point p, std::uint32_t hint) const;
 
 private:

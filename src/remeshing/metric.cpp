@@ -11,7 +11,8 @@ bool is_metric(const MetricTensor& m) {
 }
 
 MetricTensor intersection(const MetricTensor& a, const MetricTensor& b) {
-    // With a = L L^T, the metric b becomes C = L^-1 b L^-T, whose eigenvectors are the common basis; a becomes the identity.
+    // With a = L L^T, the metric b becomes C = L^-1 b L^-T, whose eigenvectors are the common basis; a becomes the
+    // identity.
     const double l11 = std::sqrt(a.xx), l21 = a.xy / l11, l22 = std::sqrt(determinant(a)) / l11;
     const double i11 = 1 / l11, i22 = 1 / l22, i21 = -l21 * i11 * i22;
     const double c11 = i11 * i11 * b.xx;

@@ -44,8 +44,8 @@ inline MetricTensor inverse(const MetricTensor& m) {
     const double scale = 1 / determinant(m);
     return {scale * m.yy, -scale * m.xy, scale * m.xx};
 }
-/// Returns M^(-1/2), the tensor of the lengths that a metric asks for: its eigenvalues. Source for the root of a matrix of order 2:
-/// B. W. Levinger, Mathematics Magazine 53 (1980).
+/// Returns M^(-1/2), the tensor of the lengths that a metric asks for: its eigenvalues. Source for the root of a matrix
+/// of order 2: B. W. Levinger, Mathematics Magazine 53 (1980).
 inline MetricTensor sizes_of(const MetricTensor& m) {
     const double root = std::sqrt(determinant(m));
     const double scale = 1 / (root * std::sqrt(m.xx + m.yy + 2 * root));
@@ -57,21 +57,21 @@ inline MetricTensor metric_of(const MetricTensor& h) {
     const double scale = 1 / (root * root);
     return {scale * (h.yy * h.yy + h.xy * h.xy), -scale * off, scale * (h.xx * h.xx + h.xy * h.xy)};
 }
-/// Returns a metric in which every vector is at least as long as in each of two, and no longer than it must be: the two become
-/// diagonal in one basis, and the larger of each two entries counts. Source: Alauzet 2010, section 3.
+/// Returns a metric in which every vector is at least as long as in each of two, and no longer than it must be: the two
+/// become diagonal in one basis, and the larger of each two entries counts. Source: Alauzet 2010, section 3.
 MetricTensor intersection(const MetricTensor& a, const MetricTensor& b);
 
-/// Returns the length of an edge with the squared lengths p and q in the metrics of its ends, where the size h along it is linear:
-/// sqrt(p q) over the logarithmic mean of sqrt(p) and sqrt(q), by Simpson's rule for that mean. The result is 0.8 % too small
-/// where the lengths differ by a factor of 10. Source: Alauzet 2010, section 2.
+/// Returns the length of an edge with the squared lengths p and q in the metrics of its ends, where the size h along it
+/// is linear: sqrt(p q) over the logarithmic mean of sqrt(p) and sqrt(q), by Simpson's rule for that mean. The result
+/// is 0.8 % too small where the lengths differ by a factor of 10. Source: Alauzet 2010, section 2.
 inline double length_between(double p, double q) {
     const double a = std::sqrt(p), b = std::sqrt(q), product = a * b;
     return 6 * product / (a + b + 4 * std::sqrt(product));
 }
 
-/// The distortion of a triangle in a metric that may have any scale: the square of (sum of squared edges) / (4 sqrt(3) area),
-/// which is 1 if it is equilateral in the metric. It is infinite where the triangle is flat and negative where it is clockwise, up
-/// to rounding. Source: T. Munson, Mathematical Programming 110 (2007), inverse mean ratio.
+/// The distortion of a triangle in a metric that may have any scale: the square of (sum of squared edges) / (4 sqrt(3)
+/// area), which is 1 if it is equilateral in the metric. It is infinite where the triangle is flat and negative where
+/// it is clockwise, up to rounding. Source: T. Munson, Mathematical Programming 110 (2007), inverse mean ratio.
 inline double triangle_distortion(Point a, Point b, Point c, const MetricTensor& m) {
     const Point ab = b - a, ac = c - a;
     const double twice_area = cross(ab, ac);

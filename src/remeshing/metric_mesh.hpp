@@ -85,8 +85,8 @@ public:
         const Point edge = vertices[b].at - vertices[a].at;
         return length_between(squared_length_at(a, edge), squared_length_at(b, edge));
     }
-    /// Returns the distortion of a triangle: 1 if it is equilateral in the mean of the metrics at its corners, and infinite or
-    /// negative if it is flat or clockwise up to rounding.
+    /// Returns the distortion of a triangle: 1 if it is equilateral in the mean of the metrics at its corners, and
+    /// infinite or negative if it is flat or clockwise up to rounding.
     double distortion(const MeshVertex& a, const MeshVertex& b, const MeshVertex& c) const {
         return triangle_distortion(a.at, b.at, c.at, a.metric + b.metric + c.metric);
     }
@@ -94,25 +94,27 @@ public:
     /// Collects the triangles round a vertex; on a line from border to border.
     void collect_ring(std::uint32_t v, Ring& ring) const;
 
-    /// Divides an edge by a new vertex on it. Returns the number of the vertex, or no_index where a triangle would not be
-    /// counter-clockwise.
+    /// Divides an edge by a new vertex on it. Returns the number of the vertex, or no_index where a triangle would not
+    /// be counter-clockwise.
     std::uint32_t divide(EdgeHandle h, const MeshVertex& vertex);
     /// Swaps the diagonal of the two triangles at an edge. Precondition: both new ones are counter-clockwise.
     void swap(EdgeHandle h, float first, float second);
-    /// Contracts the edge from the vertex of a ring to the origin (or target) of an edge opposite it. Precondition: all triangles
-    /// that stay are counter-clockwise.
+    /// Contracts the edge from the vertex of a ring to the origin (or target) of an edge opposite it. Precondition: all
+    /// triangles that stay are counter-clockwise.
     void contract(std::uint32_t v, const Ring& ring, std::uint32_t onto);
-    /// Moves a vertex, with its metric. `distortions` are those of its triangles afterwards. Precondition: the triangles stay
-    /// counter-clockwise.
+    /// Moves a vertex, with its metric. `distortions` are those of its triangles afterwards. Precondition: the
+    /// triangles stay counter-clockwise.
     void move(std::uint32_t v, const Ring& ring, const MeshVertex& moved, std::span<const float> distortions);
-    /// Numbers triangles and vertices as a walk from neighbour to neighbour meets them, and drops those that are not in use:
-    /// what is close in the mesh comes close in memory. Source: E. Cuthill, J. McKee, ACM National Conference (1969).
+    /// Numbers triangles and vertices as a walk from neighbour to neighbour meets them, and drops those that are not in
+    /// use: what is close in the mesh comes close in memory. Source: E. Cuthill, J. McKee, ACM National Conference
+    /// (1969).
     void renumber();
     /// Finds the distortion of a triangle, and notes that it has changed.
     void renew(std::uint32_t t);
 
 private:
-    /// Two triangles t and u at an edge b-c, with the corners a and d opposite it, and what is behind their other edges.
+    /// Two triangles t and u at an edge b-c, with the corners a and d opposite it, and what is behind their other
+    /// edges.
     struct TwoTriangles {
         std::uint32_t t, u, a, b, c, d;
         EdgeHandle to_ca, to_ab, to_bd, to_dc;

@@ -10,11 +10,11 @@ namespace lamina::remeshing {
 namespace {
 
 constexpr std::uint32_t triangles_per_look = 4096;
-/// Swaps and moves that lower distortions by a smaller share are left. With ten times as much the mean quality falls by 0.004;
-/// a tenth raises it by 0.0004.
+/// Swaps and moves that lower distortions by a smaller share are left. With ten times as much the mean quality falls by
+/// 0.004; a tenth raises it by 0.0004.
 constexpr float least_gain = 0.001F;
-/// Contractions leave triangles of half the best quality, or of the worst one before them. With 0 or 2 in place of 4, 77 and 84 %
-/// of the edges have the length asked for, and not 96 %; with 8 the mean quality falls by 0.0006.
+/// Contractions leave triangles of half the best quality, or of the worst one before them. With 0 or 2 in place of 4,
+/// 77 and 84 % of the edges have the length asked for, and not 96 %; with 8 the mean quality falls by 0.0006.
 constexpr float acceptable_distortion = 4;
 
 }  // namespace
@@ -49,8 +49,8 @@ std::uint32_t Passes::divide(EdgeHandle h) {
     const std::uint32_t b = triangle.v[after(edge_of(h))], c = triangle.v[before(edge_of(h))];
     const MeshVertex &from = mesh_.vertices[b], &to = mesh_.vertices[c];
     const Point edge = to.at - from.at;
-    // Both parts are to be equally long where the metric changes geometrically; this share is exact to second order in the
-    // logarithm of the ratio of the two lengths.
+    // Both parts are to be equally long where the metric changes geometrically; this share is exact to second order in
+    // the logarithm of the ratio of the two lengths.
     const double p = std::sqrt(std::sqrt(product(from.metric, edge, edge)));
     const double q = std::sqrt(std::sqrt(product(to.metric, edge, edge)));
     MeshVertex vertex;
@@ -185,8 +185,8 @@ Passes::Target Passes::find_target(std::uint32_t v) const {
                          &y = mesh_.vertices[triangle.v[before(edge_of(h))]];
         const MetricTensor m = vertex.metric + x.metric + y.metric;  // three times the mean
         const Point edge = y.at - x.at;
-        // This vector is perpendicular to the edge in the metric. Its length there is the root of det(m) times that of the
-        // edge.
+        // This vector is perpendicular to the edge in the metric. Its length there is the root of det(m) times that of
+        // the edge.
         const Point normal = perpendicular({m.xx * edge.x + m.xy * edge.y, m.xy * edge.x + m.yy * edge.y});
         const double scale = 1.5 / std::sqrt(determinant(m) * cross(edge, normal));
         sum = sum + midpoint(x.at, y.at) + scale * normal;

@@ -1,8 +1,8 @@
 // The passes of the remesher. Each goes once through the mesh, in the order of its numbers.
 //
-// Lengths are those of MetricMesh::edge_length(). A mesh is in order where edges are from 1 / sqrt(2) to sqrt(2) long, so that
-// neither dividing one nor contracting one brings its length nearer to 1 (P. J. Frey, F. Alauzet, Comput. Methods Appl. Mech.
-// Engrg. 194 (2005)).
+// Lengths are those of MetricMesh::edge_length(). A mesh is in order where edges are from 1 / sqrt(2) to sqrt(2) long,
+// so that neither dividing one nor contracting one brings its length nearer to 1 (P. J. Frey, F. Alauzet, Comput.
+// Methods Appl. Mech. Engrg. 194 (2005)).
 #pragma once
 
 #include <cstddef>
@@ -21,13 +21,13 @@ public:
 
     /// Divides edges longer than this, the longest of each triangle first, and swaps diagonals round the new vertices.
     void divide_longer(double length);
-    /// Contracts edges shorter than 1 / sqrt(2) where no edge becomes longer than sqrt(2). Returns the number of vertices
-    /// removed.
+    /// Contracts edges shorter than 1 / sqrt(2) where no edge becomes longer than sqrt(2). Returns the number of
+    /// vertices removed.
     std::size_t contract_short();
     /// Swaps diagonals where this lowers the sum of distortions.
     void swap_diagonals();
-    /// Moves vertices towards where their triangles are equilateral with edges of length 1, where this lowers the sum of
-    /// distortions.
+    /// Moves vertices towards where their triangles are equilateral with edges of length 1, where this lowers the sum
+    /// of distortions.
     void move_vertices();
     /// Returns the length of the longest edge that may be divided.
     double longest_edge() const;

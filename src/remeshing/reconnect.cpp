@@ -54,8 +54,8 @@ Mesh reconnect(const MeshView& given) {
         for (std::uint32_t t = 0; t < region.triangles.size(); ++t) region.renew(t);
         const BackgroundMetric background(region);
         Passes passes(region, background);
-        // With 0, 1, 2, 4 and 8 the mean smallest angle of all cells round a NACA 0012 turned by 60 degrees is 37.71, 38.11,
-        // 38.19, 38.24 and 38.26 degrees.
+        // With 0, 1, 2, 4 and 8 the mean smallest angle of all cells round a NACA 0012 turned by 60 degrees is 37.71,
+        // 38.11, 38.19, 38.24 and 38.26 degrees.
         constexpr int rounds = 4;
         for (int round = 0; round < rounds; ++round) {
             passes.swap_diagonals();

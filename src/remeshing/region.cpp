@@ -175,8 +175,8 @@ private:
     MetricMesh region_;
 };
 
-/// Returns the metric in which an edge is at most sqrt(2) long, by a larger size along it alone: the inverse of the metric gets
-/// a multiple of e e^T (J. Sherman, W. J. Morrison, Ann. Math. Statist. 21 (1950)).
+/// Returns the metric in which an edge is at most sqrt(2) long, by a larger size along it alone: the inverse of the
+/// metric gets a multiple of e e^T (J. Sherman, W. J. Morrison, Ann. Math. Statist. 21 (1950)).
 MetricTensor lowered_along(const MetricTensor& m, Point edge) {
     const double squared = product(m, edge, edge);
     if (squared <= 2) return m;

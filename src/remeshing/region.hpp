@@ -42,8 +42,8 @@ MetricMesh take_region(const MeshView& mesh, std::span<const MetricTensor> metri
 /// triangles at them would be divided without end.
 void limit_at_frozen_edges(MetricMesh& region);
 
-/// Returns the mesh with its region replaced, and fills in the metric at its vertices: that of the region and, in the layer,
-/// the one asked for.
+/// Returns the mesh with its region replaced, and fills in the metric at its vertices: that of the region and, in the
+/// layer, the one asked for.
 Mesh put_back(const MeshView& mesh, const MetricMesh& region, std::span<const MetricTensor> asked,
               std::vector<MetricTensor>& metric);
 

@@ -142,8 +142,8 @@ std::array<Candidates, Quadrants::count> LowerEnvelope::push(const Quadrants& qu
     return result;
 }
 
-/// Returns the lower one of `best` and the values of a group's sources at a point. Looks first at the groups whose sources
-/// may have the lowest values: where the gradation is small, these are often not the nearest ones.
+/// Returns the lower one of `best` and the values of a group's sources at a point. Looks first at the groups whose
+/// sources may have the lowest values: where the gradation is small, these are often not the nearest ones.
 double LowerEnvelope::evaluate_group(std::uint32_t index, Point p, double best) {
     const auto bound = [&](std::uint32_t group) {
         const SourceGroup& bounded = groups_[group];

@@ -57,8 +57,8 @@ double ClearanceSearch::clearance(std::size_t element, Point p, Point normal, do
 
 double ClearanceSearch::own_clearance(const ElementWalls& walls, Point p, Point normal, double min_own_clearance,
                                       double nearest) {
-    // Two walls of one element face each other where their normals meet. Neither the other side of the body nor the wall
-    // round a corner does.
+    // Two walls of one element face each other where their normals meet. Neither the other side of the body nor the
+    // wall round a corner does.
     const auto may_face_p = [&](const Box& box, std::size_t level, std::size_t i) {
         return dot(farthest_against(-normal, box) - p, normal) > 0 &&
                dot(normal, farthest_against(normal, walls.normals[level][i])) < max_facing_product;

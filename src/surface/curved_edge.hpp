@@ -9,8 +9,8 @@
 
 namespace lamina::surface {
 
-/// The stretch of a curve between two neighbouring vertices of an outline: a part of the spline that the wall was resampled
-/// on, or that goes through points that were kept; straight where the wall is.
+/// The stretch of a curve between two neighbouring vertices of an outline: a part of the spline that the wall was
+/// resampled on, or that goes through points that were kept; straight where the wall is.
 struct CurvedEdge {
     Point begin, end;                          ///< the two vertices, in the order of the outline
     std::shared_ptr<const SplineCurve> curve;  ///< what the stretch is a part of

@@ -18,8 +18,8 @@ namespace lamina::surface {
 
 namespace {
 
-/// Beyond this ratio of neighbouring spacings, samples of a smooth curve are too uneven for a mesh, and beyond this ratio of
-/// a given edge to the spacing that the rules for new points ask for there, they are too coarse.
+/// Beyond this ratio of neighbouring spacings, samples of a smooth curve are too uneven for a mesh, and beyond this
+/// ratio of a given edge to the spacing that the rules for new points ask for there, they are too coarse.
 constexpr double max_given_ratio = 1.25;
 /// So many points are kept, even where they are spaced as a generator of meshes would not ...
 constexpr std::size_t min_dense_points = 1000;
@@ -181,8 +181,8 @@ bool is_fine(const Sampling& s, EdgeRange range, std::span<const double> asked, 
            s.max_ratio <= max_given_ratio;
 }
 
-/// Returns the reason why edges are longer than the rules for new points ask for, or nothing where none is. `asked` holds
-/// the number of new edges that would take the place of each.
+/// Returns the reason why edges are longer than the rules for new points ask for, or nothing where none is. `asked`
+/// holds the number of new edges that would take the place of each.
 std::string excess_length(std::span<const double> asked, std::span<const Point> points) {
     const auto worst = std::max_element(asked.begin(), asked.end());
     if (*worst <= max_given_ratio) return "";

@@ -29,17 +29,18 @@ struct Decision {
 /// Precondition: its corners are known (Element::features).
 bool is_jagged(const Element& element);
 
-/// Returns whether an element never gets fewer points than it has, unless options ask for it: its shape lies in its points
-/// where it is jagged, and thousands of points are a choice. Precondition: its corners are known (Element::features).
+/// Returns whether an element never gets fewer points than it has, unless options ask for it: its shape lies in its
+/// points where it is jagged, and thousands of points are a choice. Precondition: its corners are known
+/// (Element::features).
 bool keeps_number_of_points(const Element& element);
 
 /// Decides for each stretch of the outline of an element, whose number in its geometry is `index`, between two corners.
-/// Where nothing else is asked for, the points of an element are kept if all of them are fine: they turn little, they are
-/// even, and no edge is far longer than the rules for new points ask for at corners, near walls and under the layer.
-/// Otherwise those stretches are replaced that do not obey these rules. Of an element of 1000 even points or more, single
-/// edges are replaced. In an element that is jagged a stretch ends also
-/// where the outline begins to zigzag. Those that are smooth and coarse are replaced there, edges that are far longer
-/// than a neighbour, or than the largest spacing, are divided, and all others are kept. Precondition: the corners of the element are known
+/// Where nothing else is asked for, the points of an element are kept if all of them are fine: they turn little, they
+/// are even, and no edge is far longer than the rules for new points ask for at corners, near walls and under the
+/// layer. Otherwise those stretches are replaced that do not obey these rules. Of an element of 1000 even points or
+/// more, single edges are replaced. In an element that is jagged a stretch ends also where the outline begins to
+/// zigzag. Those that are smooth and coarse are replaced there, edges that are far longer than a neighbour, or than the
+/// largest spacing, are divided, and all others are kept. Precondition: the corners of the element are known
 /// (Element::features).
 Decision decide(const Element& element, std::size_t index, const ResamplingRequest& request);
 

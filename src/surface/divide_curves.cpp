@@ -163,8 +163,8 @@ void place_points(const SplineCurve& curve, const CurveSamples& samples, const E
             const CurveSample &from = samples[i], &to = samples[i + 1];
             const double start = from.piece == to.piece ? from.share : 0;
             const double length = to.share - start;
-            // Rounding errors of the integrals move no point, and what falls on a given point is that point exactly, such
-            // as the nose of a symmetric section.
+            // Rounding errors of the integrals move no point, and what falls on a given point is that point exactly,
+            // such as the nose of a symmetric section.
             const double on_piece = core::rounded_place(start + share * length, length * (b - a) * edge / part);
             const Point at = curve.at(to.piece, on_piece);
             finish_edge(at, i);
@@ -212,8 +212,8 @@ double sum_of(std::span<const double> values, const CurveGroup& group) {
                            [&](double sum, std::size_t i) { return sum + values[i]; });
 }
 
-/// Sets whole numbers of edges of the curves of a group in proportion to their integrals: each gets the whole part of its
-/// share, at least min_edges, and those with the largest remainders one more (of equal ones the first).
+/// Sets whole numbers of edges of the curves of a group in proportion to their integrals: each gets the whole part of
+/// its share, at least min_edges, and those with the largest remainders one more (of equal ones the first).
 void share_out(const CurveGroup& group, std::span<const double> integrals, double min_edges,
                std::vector<double>& counts) {
     std::vector<double> remainders(integrals.size(), -HUGE_VAL);

@@ -134,8 +134,8 @@ void drop_close_to_corners(Stretch& stretch, std::span<const EdgeTreatment> trea
 }
 
 /// Drops all samples between two corners that lie on the straight line between these but for their rounding, unless an
-/// edge there stays as it is. A spline through them would turn at each of them, on a base of a thousandth of the chord by
-/// some degrees. Samples that are as far from the line as from each other are a shape, however large the element.
+/// edge there stays as it is. A spline through them would turn at each of them, on a base of a thousandth of the chord
+/// by some degrees. Samples that are as far from the line as from each other are a shape, however large the element.
 void drop_rounding(Stretch& stretch, std::span<const EdgeTreatment> treatment, double tolerance) {
     std::vector<Point>& p = stretch.run.points;
     constexpr double max_share_of_edge = 0.25;
@@ -185,7 +185,8 @@ void append_curves(const Stretch& stretch, std::span<const EdgeTreatment> treatm
 /// leading edge, two points that are as far from the trailing edge as each other.
 struct ChordEnds {
     std::vector<Point> leading, trailing;
-    /// Numbers of vertices of the outline: where the upper side starts, the leading edge, and where the lower side ends.
+    /// Numbers of vertices of the outline: where the upper side starts, the leading edge, and where the lower side
+    /// ends.
     std::size_t start = 0, nose = 0, end = 0;
     Point trailing_edge;
 
@@ -289,8 +290,8 @@ void fix_base(OutlineCurves& curves, const Element& given, std::size_t edges) {
     }
 }
 
-/// Divides the curve through the leading edge there, so that each side has curves of its own. Returns the given point at
-/// which the sides meet: another one where the leading edge was merged with its neighbour.
+/// Divides the curve through the leading edge there, so that each side has curves of its own. Returns the given point
+/// at which the sides meet: another one where the leading edge was merged with its neighbour.
 std::size_t divide_at_leading_edge(OutlineCurves& curves, const Element& given, const ChordEnds& ends) {
     const Point nose = given.points[ends.nose];
     std::size_t curve = 0, knot = 0;
@@ -318,8 +319,8 @@ std::size_t divide_at_leading_edge(OutlineCurves& curves, const Element& given, 
     return meeting_point;
 }
 
-/// Returns the curves of the upper and the lower side with their numbers of edges. Throws OptionError where the trailing
-/// edge is no corner, or a side has more curves than edges.
+/// Returns the curves of the upper and the lower side with their numbers of edges. Throws OptionError where the
+/// trailing edge is no corner, or a side has more curves than edges.
 std::vector<CurveGroup> sides_of(const OutlineCurves& curves, const Element& given, const ChordEnds& ends,
                                  const SideEdges& edges) {
     const auto starts_at = [&](std::size_t vertex) {
@@ -346,8 +347,8 @@ std::vector<CurveGroup> sides_of(const OutlineCurves& curves, const Element& giv
     return sides;
 }
 
-/// Returns the curves of an outline with the number of edges that all of it is to have. Throws OptionError where that is
-/// too small.
+/// Returns the curves of an outline with the number of edges that all of it is to have. Throws OptionError where that
+/// is too small.
 std::vector<CurveGroup> whole_outline(const OutlineCurves& curves, const Element& given, std::size_t points) {
     CurveGroup all;
     std::size_t kept = 0;

@@ -46,8 +46,8 @@ struct GivenEdges {
     std::size_t first, count;
 };
 
-/// Returns, per given edge, the integral of ds / spacing along it: how many edges, a real number, the rules for new points
-/// put in its place. Arguments as for resample().
+/// Returns, per given edge, the integral of ds / spacing along it: how many edges, a real number, the rules for new
+/// points put in its place. Arguments as for resample().
 std::vector<double> edges_asked_for(const Element& given, std::size_t index, const ResamplingRequest& request);
 
 /// Returns the spline through the points of an outline between corners, edge by edge. Precondition: the corners of the

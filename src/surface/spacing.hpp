@@ -76,8 +76,8 @@ struct SampledOutline {
 };
 
 /// Returns samples of each curve with the spacing that the rule allows, before gradation. The spacing of a kept curve
-/// is the length of its edges, but no less than min_spacing. Curves that are in `known` already, by the same rule, are taken from
-/// there; others are added.
+/// is the length of its edges, but no less than min_spacing. Curves that are in `known` already, by the same rule, are
+/// taken from there; others are added.
 SampledOutline sample_spacings(std::span<const OutlineCurve> curves, const SpacingRule& rule, SampledCurves& known);
 
 /// Lowers spacings until none grows faster than `gradation` per unit of arc length, all round the outline and across

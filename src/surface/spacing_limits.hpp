@@ -36,8 +36,8 @@ struct PreparedSurfaces {
     std::vector<CurvedEdge> curves;
 };
 
-/// Does what prepare_within() does, and returns the curves that the walls follow (SpacingLimits::with_curves). Walls are
-/// straight at sheets, and where points are kept on request without SurfaceOptions::curve_kept.
+/// Does what prepare_within() does, and returns the curves that the walls follow (SpacingLimits::with_curves). Walls
+/// are straight at sheets, and where points are kept on request without SurfaceOptions::curve_kept.
 LAMINA_EXPORT PreparedSurfaces prepare_with_curves(Geometry given, const SurfaceOptions& options,
                                                    const SpacingLimits& limits, std::optional<double> chord);
 

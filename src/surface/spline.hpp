@@ -28,8 +28,8 @@ public:
 
     /// Returns the point at `share`, in [0, 1], of a piece.
     Point at(std::size_t piece, double share) const;
-    /// Returns the point at `share`, in [0, 1], of the chord length between two positions, which count in pieces from the
-    /// start of the curve. Precondition: 0 <= from < to <= pieces().
+    /// Returns the point at `share`, in [0, 1], of the chord length between two positions, which count in pieces from
+    /// the start of the curve. Precondition: 0 <= from < to <= pieces().
     Point between(double from, double to, double share) const;
     /// Returns the derivative at `share` of a piece, a vector of about unit length.
     Point direction(std::size_t piece, double share) const;

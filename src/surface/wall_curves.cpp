@@ -15,8 +15,8 @@ namespace {
 
 constexpr int samples = 16;  // of a curve that is measured
 
-/// Returns the bound of the rounding errors of points on curves. Positions along a curve count from its start, so errors
-/// are as large as those of the largest coordinates everywhere.
+/// Returns the bound of the rounding errors of points on curves. Positions along a curve count from its start, so
+/// errors are as large as those of the largest coordinates everywhere.
 double rounding_of(std::span<const CurvedEdge> edges) {
     double largest = 0;
     for (const CurvedEdge& edge : edges) largest = std::max({largest, std::abs(edge.begin.x), std::abs(edge.begin.y)});
@@ -38,8 +38,8 @@ Box box_round(const CurvedEdge& edge, double margin) {
     return {box.lower - Point{margin, margin}, box.upper + Point{margin, margin}};
 }
 
-/// Returns the share at which the curve of an edge goes through a point, if it does up to rounding. The curve turns by less
-/// than half a right angle from its chord, along which its points therefore follow each other.
+/// Returns the share at which the curve of an edge goes through a point, if it does up to rounding. The curve turns by
+/// less than half a right angle from its chord, along which its points therefore follow each other.
 std::optional<double> share_of(const CurvedEdge& edge, Point p, double rounding) {
     constexpr int halvings = 60;
     if (p == edge.begin) return 0.0;

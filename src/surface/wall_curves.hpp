@@ -27,8 +27,8 @@ class LAMINA_EXPORT WallCurves {
 public:
     explicit WallCurves(std::vector<CurvedEdge> edges);
 
-    /// Returns the stretch between two points of the curve of one edge, in the order of the outline; nothing where no curve
-    /// goes through both, up to rounding.
+    /// Returns the stretch between two points of the curve of one edge, in the order of the outline; nothing where no
+    /// curve goes through both, up to rounding.
     std::optional<CurveStretch> between(Point begin, Point end) const;
     /// Returns the place at a share, in (0, 1), of the stretch between two such points; nothing where there is none, or
     /// where it is straight up to rounding.

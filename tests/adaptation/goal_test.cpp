@@ -40,8 +40,8 @@ std::vector<char> is_outer_vertex(const Mesh& mesh) {
     return outer;
 }
 
-/// By hand: the pressure is the flux of one momentum in x and of the other in y. In a flow of u = x and v = -y the fluxes are
-/// x^2, -x y and y^2, and the largest eigenvalues of their Hessians 2, 1 and 2.
+/// By hand: the pressure is the flux of one momentum in x and of the other in y. In a flow of u = x and v = -y the
+/// fluxes are x^2, -x y and y^2, and the largest eigenvalues of their Hessians 2, 1 and 2.
 TEST(Goal, CurvaturesAreGradientsOfTheAdjointTimesThoseOfTheFluxes) {
     const Mesh mesh = generate_mesh(one_section(), near_options()).mesh;
     const std::vector<char> outer = is_outer_vertex(mesh);

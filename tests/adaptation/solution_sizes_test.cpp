@@ -191,7 +191,8 @@ TEST(SolutionSizes, UnitsOfFieldsDoNotMatter) {
         ASSERT_NEAR(other.sizes.sizes[i], one.sizes.sizes[i], 1e-3 * one.sizes.sizes[i]);
 }
 
-// The next mesh divides such layers and periodic borders anew, and has more vertices for that: the more the coarser it is.
+// The next mesh divides such layers and periodic borders anew, and has more vertices for that: the more the coarser it
+// is.
 TEST(SolutionSizes, LayersOnTheBorderOfTheDomainStay) {
     CaseOptions coarse = near_options();
     coarse.sizing.gradation = 0.25;

@@ -1,4 +1,5 @@
-// What solutions say about the flow along walls: friction, boundary layers, and spacings, against flows given by formulas.
+// What solutions say about the flow along walls: friction, boundary layers, and spacings, against flows given by
+// formulas.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -70,7 +71,8 @@ TEST(WallFlow, FrictionAndThicknessAreThoseOfTheFlow) {
             if (edge.at.x < 0.01 || edge.at.x > 0.98) continue;
             EXPECT_NEAR(edge.friction, (edge.at.y > 0 ? -1 : 1) / scale, 0.04 / scale) << edge.at.x;
             EXPECT_NEAR(edge.wall_unit, std::sqrt(viscosity * scale), 0.02 * std::sqrt(viscosity * scale));
-            // n exp(-n) = 0.02 (1 - exp(-n)) has the solution 5.66. Where the wall bends, such a flow has vorticity everywhere.
+            // n exp(-n) = 0.02 (1 - exp(-n)) has the solution 5.66. Where the wall bends, such a flow has vorticity
+            // everywhere.
             if (edge.at.x > 0.3) {
                 EXPECT_NEAR(edge.thickness, 5.66 * scale, 0.2 * 5.66 * scale) << edge.at.x;
             }
@@ -93,8 +95,8 @@ TEST(WallFlow, FlowThatRunsBackEndsNoBoundaryLayer) {
     }
 }
 
-/// In a lifting flow on a coarse mesh the end of the layer was missed above one edge, whose layers then reached 0.06 chords
-/// into the flow: 2.8 % of the drag of NACA 0012 at 10 degrees.
+/// In a lifting flow on a coarse mesh the end of the layer was missed above one edge, whose layers then reached 0.06
+/// chords into the flow: 2.8 % of the drag of NACA 0012 at 10 degrees.
 TEST(WallFlow, AnEdgeWithoutAnEndFollowsThoseBesideIt) {
     const MeshResult made = layered_mesh();
     const auto walls_before = adaptation::find_wall_flow(solution_with(made, true), {"U", 1e-6});
@@ -150,8 +152,8 @@ TEST(WallFlow, FieldsAboveTheWallCount) {
     EXPECT_GE(compared, 4u);
 }
 
-/// The next mesh has the y+ asked for, layers as thick as the boundary layer, and wall edges that are short where the pressure
-/// bends.
+/// The next mesh has the y+ asked for, layers as thick as the boundary layer, and wall edges that are short where the
+/// pressure bends.
 TEST(WallFlow, TheNextMeshFollows) {
     const MeshResult made = layered_mesh();
     const auto bump = [](Point p) { return std::exp(-std::pow((p.x - 0.5) / 0.05, 2)); };

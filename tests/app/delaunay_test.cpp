@@ -112,8 +112,8 @@ TEST(DelaunayCommand, Refusals) {
 
 TEST(DelaunayCommand, HolesAndRegionsThatChangeNothingGiveAWarning) {
     const TemporaryFolder folder;
-    // A square of side 2 with a hole, beside a triangle. Holes: the true one, twice; outside of the segments; beyond all
-    // points. Regions: one in the square, one in the hole.
+    // A square of side 2 with a hole, beside a triangle. Holes: the true one, twice; outside of the segments; beyond
+    // all points. Regions: one in the square, one in the hole.
     folder.write("seeds.poly",
                  "11 2\n1 0 0\n2 2 0\n3 2 2\n4 0 2\n5 0.5 0.5\n6 1 0.5\n7 1 1\n8 0.5 1\n9 4 0\n10 5 0\n11 4 1\n"
                  "11 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n5 5 6\n6 6 7\n7 7 8\n8 8 5\n9 9 10\n10 10 11\n11 11 9\n"

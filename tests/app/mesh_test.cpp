@@ -326,7 +326,8 @@ TEST(CheckCommand, AnInvalidMeshIsExitCode4) {
     EXPECT_TRUE(run.err.starts_with("lamina: error: bad.su2: not valid")) << run.err;
 }
 
-/// Returns a mesh of one triangle of order 2, whose corners are in this order, with the middle of its first edge at this y.
+/// Returns a mesh of one triangle of order 2, whose corners are in this order, with the middle of its first edge at
+/// this y.
 std::string curved_triangle(double y, bool is_inverted = false) {
     const std::string names = "$PhysicalNames\n1\n1 1 \"wall\"\n$EndPhysicalNames\n";
     return "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n" + names + "$Nodes\n6\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0.5 " +

@@ -1,4 +1,5 @@
-// Polars: lamina flow with a range of angles, lamina polar, lamina yplus, ranges in sweeps. A script stands in for the solver.
+// Polars: lamina flow with a range of angles, lamina polar, lamina yplus, ranges in sweeps. A script stands in for the
+// solver.
 #include <gtest/gtest.h>
 
 #include <algorithm>

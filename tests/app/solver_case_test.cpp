@@ -292,7 +292,8 @@ double lift_of_wall_table(const fs::path& file, const Mesh& mesh, double alpha_d
     return force.y * std::cos(alpha) - force.x * std::sin(alpha);
 }
 
-/// Returns what settled.awk says, with the numbers of Allrun, of blocks of iterations: means of lift, drag and moment, ranges of lift and drag.
+/// Returns what settled.awk says, with the numbers of Allrun, of blocks of iterations: means of lift, drag and moment,
+/// ranges of lift and drag.
 std::string settled(const TemporaryFolder& folder, const std::vector<std::array<double, 5>>& blocks) {
     std::string text;
     for (const auto& block : blocks) text += fmt::format("{:.8g}\n", fmt::join(block, " "));

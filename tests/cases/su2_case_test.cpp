@@ -58,8 +58,8 @@ TEST(Su2Case, EveryOptionIsOneOfSu2) {
                 EXPECT_TRUE(known.contains(name)) << name;
 }
 
-/// Flows that may have shocks get a limiter, others the correction for low Mach numbers. Faster than sound, nothing reaches
-/// far.
+/// Flows that may have shocks get a limiter, others the correction for low Mach numbers. Faster than sound, nothing
+/// reaches far.
 TEST(Su2Case, HasASchemeForEachMachNumber) {
     SolverConditions conditions = some_conditions();
     for (const double mach : {0.1, 0.3, 0.31, 0.734, 2.0}) {

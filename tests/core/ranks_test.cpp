@@ -59,8 +59,8 @@ TEST(Ranks, TellSomeOthers) {
         }
 }
 
-// All ranks get the bytes of all, however late one of them has told its own, and whether they look for them or wait. What
-// they do next together is not disturbed.
+// All ranks get the bytes of all, however late one of them has told its own, and whether they look for them or wait.
+// What they do next together is not disturbed.
 TEST(Ranks, TellAllWhileTheyGoOn) {
     for (const unsigned n : {1u, 2u, 9u, 10u, 75u})
         for (const unsigned late : {0u, n / 2, n - 1}) {

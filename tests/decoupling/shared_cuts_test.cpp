@@ -1,4 +1,5 @@
-// cut_region() on several ranks: the borders of one process, whatever the number of ranks. Threads stand in for processes.
+// cut_region() on several ranks: the borders of one process, whatever the number of ranks. Threads stand in for
+// processes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -150,8 +151,8 @@ protected:
     }
 };
 
-// All ranks know which trapezoids are kept, and those that have become pieces during the cuts were made once, where they
-// are kept.
+// All ranks know which trapezoids are kept, and those that have become pieces during the cuts were made once, where
+// they are kept.
 TEST(SharedCuts, LeaveTimeForPieces) {
     const CutCase c = cut_cases()[2];
     const SizeField size = size_of(c);
@@ -211,8 +212,8 @@ TEST(SharedCuts, AreRefusedWhereRanksDiffer) {
     EXPECT_NE(line.find("process 2 has cut the domain in another way"), std::string::npos) << line;
 }
 
-/// Ranks of which one hears that each line has a vertex more than it has. It is found out by whoever divides the line: by
-/// this rank, if it cuts regions round the bodies, when it begins to search the first one.
+/// Ranks of which one hears that each line has a vertex more than it has. It is found out by whoever divides the line:
+/// by this rank, if it cuts regions round the bodies, when it begins to search the first one.
 class MisledCutter : public ThreadRanks {
 public:
     using ThreadRanks::ThreadRanks;

@@ -157,7 +157,8 @@ TEST(RefineConstrained, RandomSegmentsTerminate) {
     }
 }
 
-// Crossings and points of the lattice lie within rounding of other segments. Slivers between kept angles below the bound.
+// Crossings and points of the lattice lie within rounding of other segments. Slivers between kept angles below the
+// bound.
 TEST(RefineConstrained, AnglesHoldBesideVerticesThatSegmentsMissByRounding) {
     for (std::uint64_t seed = 1; seed <= 24; ++seed) {
         SCOPED_TRACE(seed);
@@ -231,7 +232,8 @@ TEST(RefineConstrained, TriangleCountsOfSlits) {
 }
 
 TEST(RefineConstrained, TriangleCountsOfSmallGraphs) {
-    // Counts of Triangle 1.6 at 33 degrees, without a bound of the area, for graphs that once took 1.5 to 2 times as many.
+    // Counts of Triangle 1.6 at 33 degrees, without a bound of the area, for graphs that once took 1.5 to 2 times as
+    // many.
     struct Case {
         std::uint64_t seed;
         std::size_t triangles;
@@ -296,8 +298,8 @@ TEST(RefineConstrained, OneSplitDoesNotRunRoundAStar) {
 }
 
 TEST(RefineConstrained, EndsWhereCoordinatesDoNotResolveVertices) {
-    // A vertex 1e-39 above a side, at x = 2: vertices between them differ in y alone, and none mends an angle. Thousands
-    // were inserted, each in a longer time.
+    // A vertex 1e-39 above a side, at x = 2: vertices between them differ in y alone, and none mends an angle.
+    // Thousands were inserted, each in a longer time.
     PlanarGraph graph;
     graph.add_loop({{9, 14}, {8, 0}, {0, 0}});
     graph.points.push_back({2, 2.9e-39});

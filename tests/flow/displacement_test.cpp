@@ -121,8 +121,8 @@ TEST(Interaction, PassesSeparation) {
     EXPECT_GT(layers.back().speed, stations.back().speed);
 }
 
-/// Round corners of bluff bodies the speed jumps up and down, and what was displaced does not fit. Thousands of steps, each
-/// of which may make the layer half as thick again, led to no numbers.
+/// Round corners of bluff bodies the speed jumps up and down, and what was displaced does not fit. Thousands of steps,
+/// each of which may make the layer half as thick again, led to no numbers.
 TEST(Interaction, StaysFiniteInWildFlow) {
     const OuterGas gas = gas_of(0.7, 3e5);
     std::mt19937 random(3);

@@ -59,8 +59,8 @@ inline Section diamond(double half_angle) {
     return {half, [half](double x) { return -half(x); }};
 }
 
-/// Returns a mesh with `around` vertices on the wall, an even number, up to some `radius` chords. Cells are `aspect` times
-/// as long as wide far away, and nearly square at the wall.
+/// Returns a mesh with `around` vertices on the wall, an even number, up to some `radius` chords. Cells are `aspect`
+/// times as long as wide far away, and nearly square at the wall.
 inline SectionMesh mesh_round(const Section& section, std::size_t around, double radius, double aspect = 1) {
     SectionMesh mesh;
     const double step = shapes::full_turn / static_cast<double>(around), last = std::log(4 * radius);

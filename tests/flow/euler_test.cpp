@@ -113,9 +113,9 @@ TEST(Euler, SymmetryIsKept) {
     EXPECT_NEAR(up.drag, down.drag, 3e-3 * up.drag + 1e-4);
 }
 
-// Solutions on fine grids (AGARD AR-211, 1985, and later ones) have lift coefficients of 0.35 to 0.36, a drag coefficient of
-// about 0.0227, and shocks near 0.62 to 0.63 of the chord above and 0.35 below. With edges of 0.02 chords at the shock,
-// this mesh has 0.003 too much drag, and the position of the shock is good to half an edge.
+// Solutions on fine grids (AGARD AR-211, 1985, and later ones) have lift coefficients of 0.35 to 0.36, a drag
+// coefficient of about 0.0227, and shocks near 0.62 to 0.63 of the chord above and 0.35 below. With edges of 0.02
+// chords at the shock, this mesh has 0.003 too much drag, and the position of the shock is good to half an edge.
 TEST(Euler, HasThePublishedLiftDragAndShocksOfNaca0012) {
     const SectionMesh mesh = mesh_round(naca_0012(), 144, 50, 3);
     const EulerOptions options{.mach = 0.8, .alpha_deg = 1.25};

@@ -74,8 +74,9 @@ TEST(FlowAlongWalls, TunnelWallsRaiseTheLiftOfAPlate) {
     }
 }
 
-/// Plates that stand one above the other lift (2 pitch / (pi chord)) tanh(pi chord / (2 pitch)) times as much as one, in the
-/// mean of the streams ahead and behind. Source: F. Weinig, Die Stroemung um die Schaufeln von Turbomaschinen (1935).
+/// Plates that stand one above the other lift (2 pitch / (pi chord)) tanh(pi chord / (2 pitch)) times as much as one,
+/// in the mean of the streams ahead and behind. Source: F. Weinig, Die Stroemung um die Schaufeln von Turbomaschinen
+/// (1935).
 TEST(FlowThroughARow, IsThatOfPlatesOneAboveTheOther) {
     const Outline plate = naca_airfoil("0002", 200).points;
     const double free = solve_flow(geometry({plate}), {.alpha_deg = 4}).lift / std::sin(4 * std::numbers::pi / 180);

@@ -1,5 +1,5 @@
-// DXF, SVG, IGES and STEP: the outlines are those that the curves draw, and nothing that a drawing says makes the reader
-// run away.
+// DXF, SVG, IGES and STEP: the outlines are those that the curves draw, and nothing that a drawing says makes the
+// reader run away.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -303,8 +303,8 @@ TEST(Drawings, StepWithoutEdgesGivesItsCurves) {
     EXPECT_NEAR(bounding_box(Geometry{{half}}).height(), 1, 1e-12);
 }
 
-/// Returns the unit circle as a closed spline of STEP, #30, whose seam is at (1, 0), with points on the axes, #10 to #18,
-/// and further instances.
+/// Returns the unit circle as a closed spline of STEP, #30, whose seam is at (1, 0), with points on the axes, #10 to
+/// #18, and further instances.
 std::string spline_of_step(const std::string& more) {
     for (auto [name, text] : fixtures::unit_circles())
         if (name == "step spline") return text.insert(text.rfind("ENDSEC;"), more);

@@ -92,8 +92,8 @@ TEST(Scatter, OfRingsIsRemovedRoundThem) {
     EXPECT_LT(largest_distance(box.points, square), 1.5e-3);
 }
 
-/// What is rough by its shape is not smoothed: vertices that turn independently of each other, regular teeth, rounding of
-/// few points.
+/// What is rough by its shape is not smoothed: vertices that turn independently of each other, regular teeth, rounding
+/// of few points.
 TEST(Scatter, IsNoShape) {
     std::mt19937 random(3);
     const auto uniform = [&] { return static_cast<double>(random()) / 2147483648.0 - 1; };

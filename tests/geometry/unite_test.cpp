@@ -55,8 +55,8 @@ struct RationalPoint {
     Rational x, y;
 };
 
-/// Returns the area that two convex polygons with small whole coordinates have in common: one is clipped by the edges of
-/// the other, in rational arithmetic.
+/// Returns the area that two convex polygons with small whole coordinates have in common: one is clipped by the edges
+/// of the other, in rational arithmetic.
 double common_area(const Outline& a, const Outline& b) {
     const auto exact = [](Point p) { return RationalPoint{Rational(p.x), Rational(p.y)}; };
     std::vector<RationalPoint> clipped;

@@ -116,8 +116,8 @@ TEST(Columns, EndBelowAnElementBetweenTwoRays) {
     }
 }
 
-/// The front is the largest one below what is wanted that rises by no more than a slope: by another route, the least sum
-/// of a height that is wanted and of what the slope allows on the way from there.
+/// The front is the largest one below what is wanted that rises by no more than a slope: by another route, the least
+/// sum of a height that is wanted and of what the slope allows on the way from there.
 TEST(Fronts, AreInfConvolutions) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> width(0.5, 2), height(0.1, 6);

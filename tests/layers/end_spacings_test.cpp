@@ -146,8 +146,8 @@ TEST(EndSpacings, LastLayersAreHigherWhereFrontsRise) {
     Rays rays = columns_apart(std::vector<double>(400, 1.5e-3));
     for (std::size_t i = 200; i < 400; ++i) rays.counts[i] = 59;
     layers::fit_end_spacings(rays);
-    // Beside the change the front's edges are level on one side and rise by a layer on the other, where the cell is as large
-    // as a square on the edge when it is edge * edge / width high.
+    // Beside the change the front's edges are level on one side and rise by a layer on the other, where the cell is as
+    // large as a square on the edge when it is edge * edge / width high.
     const double rising = (1.5e-3 * 1.5e-3 + 1e-6) / 1.5e-3, square = 1e3 * std::sqrt(1.5e-3 * rising);
     // Those of the next columns are no higher than wide, and rows rise slowly from there.
     for (const std::size_t beside : {199u, 200u}) {
@@ -219,8 +219,8 @@ struct SoundColumns {
     std::size_t changed = 0, left = 0;
 };
 
-/// Fits the last spacings of random columns of this topology, under fronts that rise by up to `steepest` of the width from ray to ray. Expects
-/// that columns with sound cells keep them, and returns how many of these are changed.
+/// Fits the last spacings of random columns of this topology, under fronts that rise by up to `steepest` of the width
+/// from ray to ray. Expects that columns with sound cells keep them, and returns how many of these are changed.
 SoundColumns fit_random_columns(LayerTopology topology, double steepest) {
     std::mt19937 random(7);
     const auto real = [&](double low, double high) {
@@ -258,8 +258,8 @@ SoundColumns fit_random_columns(LayerTopology topology, double steepest) {
     return sound;
 }
 
-/// Rows of neighbours whose last spacings are changed differently rise, and may do so where fronts and numbers of layers are steep
-/// already.
+/// Rows of neighbours whose last spacings are changed differently rise, and may do so where fronts and numbers of
+/// layers are steep already.
 TEST(EndSpacings, CrossesNoCells) {
     // Limits let fronts rise by a quarter of the width. Six widths are a hard case: columns of triangles are changed
     // more differently there, since wide ones do not raise narrow ones, and more changes are taken back whole.

@@ -47,9 +47,9 @@ inline double doubled_area(const layers::Layer& layer, const std::vector<VertexI
     return area;
 }
 
-/// Expects cells that cover the layer once: they are convex, positive and numbered from 1 on; each directed edge is used once, and those
-/// without a twin are the edges that bound the layer; all points are used, except wall vertices beside which there is
-/// no layer; area and Euler characteristic are right.
+/// Expects cells that cover the layer once: they are convex, positive and numbered from 1 on; each directed edge is
+/// used once, and those without a twin are the edges that bound the layer; all points are used, except wall vertices
+/// beside which there is no layer; area and Euler characteristic are right.
 inline void expect_cover(const layers::Layer& layer, const layers::LayerEdges& edges, const layers::LayerCells& cells) {
     std::set<Segment> directed;
     std::set<VertexId> used;

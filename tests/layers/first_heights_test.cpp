@@ -120,8 +120,8 @@ TEST(FirstHeights, LayersOfDifferentHeightsMeetInAGap) {
     }
 }
 
-/// First heights that vary along the wall by a factor of 3 are those of the rays, within a tenth from vertex to vertex; wakes and
-/// fans go on with those of the trailing edge.
+/// First heights that vary along the wall by a factor of 3 are those of the rays, within a tenth from vertex to vertex;
+/// wakes and fans go on with those of the trailing edge.
 TEST(FirstHeights, MayVaryAlongTheWall) {
     const Geometry geometry = shapes::geometry({shapes::section(0.12, 0, 400), second_section()});
     const std::vector<Point>& wall = geometry.elements[1].points;

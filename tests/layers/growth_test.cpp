@@ -269,8 +269,8 @@ TEST(AutomaticLayers, VarySmoothlyOnAnySection) {
     }
 }
 
-/// Where a wall turns inwards below rays that all lean to one side, heights along them jump, as first heights want it. The
-/// front of thick layers must not.
+/// Where a wall turns inwards below rays that all lean to one side, heights along them jump, as first heights want it.
+/// The front of thick layers must not.
 TEST(AutomaticLayers, RiseLittleWhereRaysLeanFromTwoWalls) {
     constexpr std::size_t n = 200, corner = n / 2;
     constexpr double edge = 1e-3;

@@ -32,8 +32,8 @@ LayerOptions scaled(LayerOptions options, double scale) {
     return options;
 }
 
-/// Expects the first layer to have its height above the edges of the wall beside each ray, on average, or a little more at
-/// sharp corners. check_layer() knows how the layers above grow.
+/// Expects the first layer to have its height above the edges of the wall beside each ray, on average, or a little more
+/// at sharp corners. check_layer() knows how the layers above grow.
 void expect_first_heights(const Layer& layer, const LayerOptions& options) {
     const auto at = [&](VertexId v) { return layer.points[v.index()]; };
     for (const auto& rays : layer.rays) {
@@ -350,8 +350,9 @@ Rays rays_of_circle(double first_height, std::uint32_t layers, bool resampled, L
     return grow_rays(geometry, options, test::growth_of(options));
 }
 
-/// Checks that the front's edges, all equally long, are halved where they are longer than the largest edge of the border
-/// by more than a tenth or, where `stay_whole`, by more than root 2; and by more than a source asks for in any case.
+/// Checks that the front's edges, all equally long, are halved where they are longer than the largest edge of the
+/// border by more than a tenth or, where `stay_whole`, by more than root 2; and by more than a source asks for in any
+/// case.
 void expect_halves(const Rays& rays, bool stay_whole) {
     const std::vector<Point> front = fronts(rays)[0];
     ASSERT_EQ(front.size(), 160U);
@@ -366,8 +367,8 @@ void expect_halves(const Rays& rays, bool stay_whole) {
     }
 }
 
-/// Below halves of the top of a flat cell the angle at the middle of the top would be near 180 degrees, and the triangles of a
-/// cell that is about as high as wide would be twice as large as those on the halves.
+/// Below halves of the top of a flat cell the angle at the middle of the top would be near 180 degrees, and the
+/// triangles of a cell that is about as high as wide would be twice as large as those on the halves.
 TEST(Layer, TopsOfCellsOfTheGridOnResampledWallsStayWhole) {
     const double edge = 2 * 0.5 * std::sin(core::pi / 160);
     for (const double width_over_height : {0.5, 1.0, 1.5, 1.8, 2.0, 7.0, 8.0, 20.0, 1000.0})

@@ -18,8 +18,8 @@ struct Problem {
     double weight, stiffness;
 };
 
-/// Returns a problem of n rays: columns that lack width or have too much, some that ask for nothing, some rays that cannot
-/// lean and some that lean to one side alone.
+/// Returns a problem of n rays: columns that lack width or have too much, some that ask for nothing, some rays that
+/// cannot lean and some that lean to one side alone.
 Problem random_problem(std::size_t n, core::Random& random) {
     Problem problem{{}, {}, random.real(0.1, 1), std::pow(10, random.real(-3, -1))};
     for (std::size_t k = 0; k < n; ++k) {
@@ -129,7 +129,8 @@ TEST(LeanChain, TreatsBothDirectionsAlike) {
     }
 }
 
-/// A column in the middle of many that lack nothing widens by what it lacks but for the stiffness, from both sides alike.
+/// A column in the middle of many that lack nothing widens by what it lacks but for the stiffness, from both sides
+/// alike.
 TEST(LeanChain, SharesALackBetweenBothSides) {
     const std::size_t n = 101;
     Problem p{std::vector<ColumnLack>(n, {-1, -1}), std::vector<LeanBounds>(n, {-1, 1}), 1, 1e-3};

@@ -72,8 +72,8 @@ TEST(LeansBesideFans, KeepsOriginsAndTheOrderOfDirections) {
     }
 }
 
-/// Returns a plate from which the corner at the origin, its first vertex, cuts off an angle. The corner turns by so many
-/// degrees, and the edges beside it are short.
+/// Returns a plate from which the corner at the origin, its first vertex, cuts off an angle. The corner turns by so
+/// many degrees, and the edges beside it are short.
 Outline plate_with_corner(double turning_deg) {
     const double angle = core::radians(turning_deg);
     const Point before{0, 1}, after = core::rotated(before, angle);

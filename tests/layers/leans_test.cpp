@@ -86,7 +86,8 @@ TEST(Leans, BothDirectionsOfTheWallAreTreatedAlike) {
     }
 }
 
-/// Where the wall turns, a ray that leans is higher above one edge than above the other. It is shifted where there is room.
+/// Where the wall turns, a ray that leans is higher above one edge than above the other. It is shifted where there is
+/// room.
 TEST(Leans, RaysLeanNoFartherThanFirstHeightsAllow) {
     constexpr std::size_t corners = 8, parts = 4992 / corners;
     Outline outline = divided_polygon(corners);

@@ -164,8 +164,8 @@ TEST(Rays, LeanNoFurtherThanHeightsAboveBothEdgesAllow) {
     EXPECT_GT(tilted, 20u);
 }
 
-/// A small body lies near one vertex of a wall of few vertices. Numbers of layers change by one from vertex to vertex, and
-/// most layers are kept.
+/// A small body lies near one vertex of a wall of few vertices. Numbers of layers change by one from vertex to vertex,
+/// and most layers are kept.
 TEST(Rays, OfCoarseWallsBesideASmallBodyKeepMostLayers) {
     const Outline plate = shapes::polygon({{0, -1}, {4, -1}, {4, 0}, {3, 0}, {2, 0}, {1, 0}, {0, 0}});
     const Outline small = shapes::moved(shapes::circle(0.05, 40), 0, 1, {2, 0.06});
@@ -221,9 +221,9 @@ TEST(Rays, LeaveBluntCornersOfSmoothOutlinesInFans) {
     EXPECT_GT(origins(layers::OutlineKind::given), hexagon.size());
 }
 
-/// Rows over both walls of a cove corner keep their heights above the walls. Heights along rays are larger the more these
-/// lean, and the front rises slowly, so that it rounds the corner: the upper half of the layers is up to 7 % lower, or
-/// there is a layer less.
+/// Rows over both walls of a cove corner keep their heights above the walls. Heights along rays are larger the more
+/// these lean, and the front rises slowly, so that it rounds the corner: the upper half of the layers is up to 7 %
+/// lower, or there is a layer less.
 TEST(Rays, OutOfCoveCornersKeepTheHeightsAboveBothWalls) {
     const Outline cove = shapes::refined(shapes::polygon({{0, 0}, {4, 0}, {4, 4}, {2, 4}, {2, 2}, {0, 2}}), 40);
     const LayerOptions options = layers_as_high_as(0.1);

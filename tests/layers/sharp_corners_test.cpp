@@ -193,8 +193,8 @@ TEST(SharpCorners, OfRandomOutlines) {
     EXPECT_GT(clefts, 8u);
 }
 
-/// A cleft of ice whose sides turn away from it next to the corner. Without a ray at the corner, those beside it stand on
-/// convex vertices, lean away from each other, and do not see the edges of the cleft: triangles were folded.
+/// A cleft of ice whose sides turn away from it next to the corner. Without a ray at the corner, those beside it stand
+/// on convex vertices, lean away from each other, and do not see the edges of the cleft: triangles were folded.
 TEST(SharpCorners, KeepTheirRayWhereSidesBulge) {
     const Outline cleft = shapes::polygon({{45.6623, -44.2649},
                                            {45.8952, -43.8137},

@@ -1,4 +1,5 @@
-// find_adjacency(), find_edges() and the survey of edges against a map of all edges, on whole and damaged meshes of several blocks.
+// find_adjacency(), find_edges() and the survey of edges against a map of all edges, on whole and damaged meshes of
+// several blocks.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// check_piece() and PiecewiseCheck: the same findings as check_mesh(), and every damage to what is handed over is found.
+// check_piece() and PiecewiseCheck: the same findings as check_mesh(), and every damage to what is handed over is
+// found.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -36,8 +37,8 @@ struct OwnedPiece {
     core::EdgeLinks links;
 };
 
-/// A mesh without a layer in two parts: the triangles on both sides of the vertical line x = `cut`. Shared vertices come
-/// first in the mesh.
+/// A mesh without a layer in two parts: the triangles on both sides of the vertical line x = `cut`. Shared vertices
+/// come first in the mesh.
 struct CutMesh {
     std::vector<Point> shared;
     std::vector<OwnedPiece> pieces;

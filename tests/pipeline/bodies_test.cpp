@@ -88,7 +88,8 @@ TEST(Concavities, LayersThatFillThem) {
         }
 }
 
-/// A plate with a slit of 3 degrees. Triangles near its tip are exempt; others keep the bound, beside layers that are hardly thinned.
+/// A plate with a slit of 3 degrees. Triangles near its tip are exempt; others keep the bound, beside layers that are
+/// hardly thinned.
 TEST(Concavities, LayersInASlitLeaveRoomForTheAnglesBeyond) {
     const Outline plate{{0, 0}, {1, 0}, {1, 0.1}, {0.62, 0.1}, {0.276, 0.0283}, {0.6, 0.1}, {0, 0.1}};
     CaseOptions options;

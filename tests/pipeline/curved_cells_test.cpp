@@ -258,8 +258,8 @@ TEST(CurvedCells, OfTurnedAndMirroredWallsAreValidAsWell) {
 }
 
 TEST(CurvedCells, FollowWallsThatAreDividedAfterwards) {
-    // Edges of walls without layers are longer than the triangles wanted there, and points that are kept turn by more than
-    // rays may. Walls with layers need both.
+    // Edges of walls without layers are longer than the triangles wanted there, and points that are kept turn by more
+    // than rays may. Walls with layers need both.
     struct Divided {
         bool has_layer;
         SurfaceOptions surface;

@@ -89,7 +89,8 @@ TEST(FlowGuidance, FirstHeightsHaveTheYPlusOfTheLargestSkinFrictionOnTheirElemen
     EXPECT_GT(std::abs(heights[1] / heights[0] - 1), 0.05);
 }
 
-/// In front of a flap the flow is fast at the base of the main element, and friction is largest where it turns round it.
+/// In front of a flap the flow is fast at the base of the main element, and friction is largest where it turns round
+/// it.
 TEST(FlowGuidance, FirstHeightsKnowTheFrictionAtCornersOfBases) {
     ElementFlow element;
     element.upper = {{.at = {0.5, 0.1}, .skin_friction = 0.01}, {.at = {1, 0.01}, .skin_friction = 0.002}};
@@ -250,8 +251,8 @@ TEST(FlowGuidance, WakesFollowStreamlinesFromTrailingEdges) {
     }
 }
 
-/// The lift of viscous flow is not known before the mesh. Streamlines for 0.75 and 0.85 of that of potential flow lie in
-/// the wake.
+/// The lift of viscous flow is not known before the mesh. Streamlines for 0.75 and 0.85 of that of potential flow lie
+/// in the wake.
 TEST(FlowGuidance, WakesHoldStreamlinesOfSeveralLifts) {
     const Flow flow =
         solve_flow(shapes::geometry({naca("4412", 160, TrailingEdge::blunt)}), {.alpha_deg = 10, .reynolds = 3e6});
@@ -390,8 +391,8 @@ TEST(FlowGuidance, WakesScaleWithTheGeometry) {
     }
 }
 
-/// Behind a wide base, mixing layers begin at both corners, as thin as the boundary layers there, and meet in the middle,
-/// where the inner wake begins. Meshes have such edges.
+/// Behind a wide base, mixing layers begin at both corners, as thin as the boundary layers there, and meet in the
+/// middle, where the inner wake begins. Meshes have such edges.
 TEST(FlowGuidance, MixingLayersBeginAtTheCornersOfWideBases) {
     for (const double base : {0.06, 0.1}) {
         SCOPED_TRACE(base);

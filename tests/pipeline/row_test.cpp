@@ -109,7 +109,8 @@ TEST(BladeRow, HoldsSeveralElements) {
     expect_periodic(mesh, 0.9);
 }
 
-/// Lines of any kind: the border runs between them and their copies, and the layers of neighbours give way to the copies.
+/// Lines of any kind: the border runs between them and their copies, and the layers of neighbours give way to the
+/// copies.
 TEST(BladeRow, HoldsLines) {
     std::mt19937 random(20261129);
     const auto in = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };

@@ -209,8 +209,8 @@ struct FactorCount {
 };
 
 /// Other factors round every coordinate, which no decision may hang on. One value in a hundred thousand lies so near to
-/// where rounding to fewer bits begins to choose the other neighbour that rounding errors decide after all, and meshes have
-/// as many (docs/decisions/0062).
+/// where rounding to fewer bits begins to choose the other neighbour that rounding errors decide after all, and meshes
+/// have as many (docs/decisions/0062).
 TEST(UnitOfTheInput, OtherFactorsKeepNearlyAllMeshes) {
     FactorCount count;
     for (const ScaleCase& scale_case : scale_cases()) count.add(scale_case);

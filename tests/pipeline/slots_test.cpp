@@ -55,8 +55,8 @@ TEST(Slots, GapsThatAskForTooMuchAreRefusedBeforeTheLayer) {
     refuse(plates(1e-5));
 }
 
-/// In slots with one row of triangles, thinner layers move a triangle below the bound along the slot. Shorter edges of the
-/// border mend it.
+/// In slots with one row of triangles, thinner layers move a triangle below the bound along the slot. Shorter edges of
+/// the border mend it.
 TEST(Slots, OfCombsKeepTheBoundOfAngles) {
     CaseOptions options = preset_options("rans", true);
     options.conditions.reynolds = 1e6;

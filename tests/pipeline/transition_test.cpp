@@ -154,8 +154,8 @@ TEST(Transition, TopsOfFlatCellsStayWhole) {
     EXPECT_LT(result.check.layer.max_angle_deg, 100);
 }
 
-/// Columns at the corners of wide bases remain narrow, though their rays lean. Half of their last cells had 2.7 times the
-/// area of the triangles beyond.
+/// Columns at the corners of wide bases remain narrow, though their rays lean. Half of their last cells had 2.7 times
+/// the area of the triangles beyond.
 TEST(Transition, NarrowColumnsEndInLowCells) {
     const CaseOptions options = from_the_flow();
     const MeshResult result = mesh_of({shapes::polygon({{1, 0.5}, {0, 0}, {1, -0.5}})}, options);
@@ -164,8 +164,8 @@ TEST(Transition, NarrowColumnsEndInLowCells) {
     EXPECT_LT(result.check.transition.p99_area_ratio, 1.8);
 }
 
-/// A wake leaves the layer between columns that are wider than its triangles. It divided tops of cells twice as high as wide,
-/// and half of these cells had nine times the area of the triangles beyond.
+/// A wake leaves the layer between columns that are wider than its triangles. It divided tops of cells twice as high as
+/// wide, and half of these cells had nine times the area of the triangles beyond.
 TEST(Transition, WakesLeaveTheirLayersWithoutDividingHighCells) {
     const CaseOptions options = from_the_flow();
     shapes::Outline outline;
@@ -176,7 +176,8 @@ TEST(Transition, WakesLeaveTheirLayersWithoutDividingHighCells) {
     EXPECT_LT(result.check.transition.p99_area_ratio, 2);
 }
 
-/// Cells of a fan are as wide as its rays are apart, at any height. With a growth of 1.2 they would be 1.9 times as high.
+/// Cells of a fan are as wide as its rays are apart, at any height. With a growth of 1.2 they would be 1.9 times as
+/// high.
 TEST(Transition, FansEndInLowCells) {
     const CaseOptions options = from_the_flow();
     const shapes::Outline diamond = shapes::polygon({{1, 0}, {0.5, 0.05}, {0, 0}, {0.5, -0.05}});

@@ -132,8 +132,8 @@ TEST(Warnings, HeightsThatJumpAtTheEndOfTheLayer) {
     EXPECT_EQ(names_of(mended.warnings), std::vector<std::string>{});
 }
 
-/// The first cells of a fan are as small as a first height is beside the wall's edge. Fewer layers than up to isotropy join
-/// divided borders to flat cells.
+/// The first cells of a fan are as small as a first height is beside the wall's edge. Fewer layers than up to isotropy
+/// join divided borders to flat cells.
 TEST(Warnings, AreasOfNeighboursThatJump) {
     CaseOptions options;
     options.surface.treatment = SurfaceTreatment::keep;
@@ -159,8 +159,8 @@ TEST(Warnings, AreasOfNeighboursThatJump) {
     EXPECT_NE(flat.message.find("--layers auto"), std::string::npos) << flat.message;
 }
 
-/// Angles between the largest that is aimed at and 180 degrees are not kept quiet. Few points that are kept make some, where
-/// the border is divided above long edges.
+/// Angles between the largest that is aimed at and 180 degrees are not kept quiet. Few points that are kept make some,
+/// where the border is divided above long edges.
 TEST(Warnings, LargeAnglesOfTheLayer) {
     CaseOptions options = quick_options();
     options.layer = {};

@@ -245,7 +245,8 @@ std::vector<double> brightness_of_rows(const std::filesystem::path& png) {
 
 TEST(Plot, CurvedCellsFollowTheirNodes) {
     const TemporaryFolder folder;
-    // A square whose lower edge is an arc down to y = -0.5 reaches the lowest rows of this window, as it does not without it.
+    // A square whose lower edge is an arc down to y = -0.5 reaches the lowest rows of this window, as it does not
+    // without it.
     const Mesh mesh{.points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}},
                     .quads = {{{VertexId{0u}, VertexId{1u}, VertexId{2u}, VertexId{3u}}}},
                     .markers = {{"wall", MarkerKind::wall, {{VertexId{0u}, VertexId{1u}}}}}};
@@ -263,7 +264,8 @@ TEST(Plot, CurvedCellsFollowTheirNodes) {
     EXPECT_THROW(plot_mesh(mesh, nodes, folder / "curved.png", {.repeat = 2}), UsageError);
 }
 
-// Where edges merge into grey, it must be as dark as they are: it was paler by 22 of 255, and walls seemed to have a gap.
+// Where edges merge into grey, it must be as dark as they are: it was paler by 22 of 255, and walls seemed to have a
+// gap.
 TEST(Plot, NoPaleStripLiesBesideAWall) {
     constexpr int width = 2000, wall_and_blending = 4, strip = 6;
     const TemporaryFolder folder;

@@ -28,8 +28,9 @@ inline std::vector<MetricTensor> at_vertices(const Mesh& mesh, const MetricFormu
     return result;
 }
 
-/// Returns a random metric for a domain in and around the unit square: a shock, a circle, a layer at a line, sizes that jump,
-/// sizes without direction, or directions that turn. `size` is about the length of edges far from what it resolves.
+/// Returns a random metric for a domain in and around the unit square: a shock, a circle, a layer at a line, sizes that
+/// jump, sizes without direction, or directions that turn. `size` is about the length of edges far from what it
+/// resolves.
 inline MetricFormula random_metric(core::Random& random, double size) {
     const double angle = random.real(0, 6.28), thin = size * std::pow(10, random.real(-3, -0.5));
     const Point middle{random.real(0, 1), random.real(0, 1)}, normal{std::cos(angle), std::sin(angle)};

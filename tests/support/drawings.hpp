@@ -61,8 +61,8 @@ inline std::string step(const std::string& instances) {
     return "ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\n" + instances + "ENDSEC;\nEND-ISO-10303-21;\n";
 }
 
-/// Drawings of the unit circle, whose coordinates begin with y = 0, x = 1, and of one half of it by an arc each where the
-/// format can: all ways to draw it exactly.
+/// Drawings of the unit circle, whose coordinates begin with y = 0, x = 1, and of one half of it by an arc each where
+/// the format can: all ways to draw it exactly.
 inline std::vector<std::pair<std::string, std::string>> unit_circles() {
     const std::string half = "0.7071067811865476";
     std::vector<std::string> groups{"71 2", "70 4"};

@@ -61,8 +61,8 @@ inline RaySet rays_in_a_row(const std::vector<double>& widths) {
     return set;
 }
 
-/// Returns widths of columns that are wide at first, a twentieth narrower from one to the next, so narrow in the middle, and
-/// become wide again in the same way.
+/// Returns widths of columns that are wide at first, a twentieth narrower from one to the next, so narrow in the
+/// middle, and become wide again in the same way.
 inline std::vector<double> widths_with_narrow_middle(double wide, double narrow, std::size_t narrow_columns) {
     std::vector<double> widths;
     for (double width = wide; width > narrow; width *= 0.95) widths.push_back(width);

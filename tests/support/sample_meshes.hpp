@@ -102,7 +102,8 @@ inline Mesh box_with_hole(std::size_t n = 5) {
     return mesh;
 }
 
-/// Returns the square [0, 1] x [0, 1] of n x n squares that are split in two. There are no regions; the marker is 'box'.
+/// Returns the square [0, 1] x [0, 1] of n x n squares that are split in two. There are no regions; the marker is
+/// 'box'.
 inline Mesh cut_square(std::size_t n) {
     Mesh mesh;
     const auto vertex = [n](std::size_t i, std::size_t j) { return VertexId(j * (n + 1) + i); };

@@ -174,8 +174,9 @@ private:
     RankHub& hub_;
 };
 
-/// Calls work(ranks) as each of `n` ranks at once. What it throws goes through Ranks::fail(), as in the program, and the
-/// line that all ranks end with is returned; empty: none has failed. `first_taker` is the rank that takes the first piece.
+/// Calls work(ranks) as each of `n` ranks at once. What it throws goes through Ranks::fail(), as in the program, and
+/// the line that all ranks end with is returned; empty: none has failed. `first_taker` is the rank that takes the first
+/// piece.
 template <class RankClass = ThreadRanks, class Work>
 std::string run_ranks(unsigned n, Work&& work, std::optional<unsigned> first_taker = {}) {
     RankHub hub(n, first_taker.value_or(n));

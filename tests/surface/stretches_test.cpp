@@ -249,8 +249,8 @@ double longest_at_base(const Element& e) {
     return longest;
 }
 
-/// A base of one edge as long as its neighbours was kept, and areas of neighbouring cells differed by 187,408 there, while
-/// the next section of the blade was resampled.
+/// A base of one edge as long as its neighbours was kept, and areas of neighbouring cells differed by 187,408 there,
+/// while the next section of the blade was resampled.
 TEST(AutomaticSurface, JudgesBasesAsWellAsNoses) {
     for (const double base : {0.0035, 0.011, 0.0125, 0.016, 0.0213})
         for (const std::size_t points : {200u, 300u, 1500u}) {

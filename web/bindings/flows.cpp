@@ -15,8 +15,8 @@ using emscripten::val;
 
 namespace {
 
-/// Returns the places and pressures of an element, from the trailing edge along the upper side and along the lower one back
-/// to it. The sides share the stagnation point.
+/// Returns the places and pressures of an element, from the trailing edge along the upper side and along the lower one
+/// back to it. The sides share the stagnation point.
 template <class WallPoint>
 val pressures_of(const std::string& name, const std::vector<WallPoint>& upper, const std::vector<WallPoint>& lower) {
     std::vector<double> points, cp;

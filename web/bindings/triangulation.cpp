@@ -1,5 +1,5 @@
-// The triangulation alone, as a module of its own: dist/triangulation.wasm, which web/src/triangulation.ts wraps. Its two
-// functions take and return addresses in the memory of the module, so it needs nothing of Embind.
+// The triangulation alone, as a module of its own: dist/triangulation.wasm, which web/src/triangulation.ts wraps. Its
+// two functions take and return addresses in the memory of the module, so it needs nothing of Embind.
 //
 // Triangles are delaunator's: clockwise where y points upwards, so counter-clockwise on a screen.
 //

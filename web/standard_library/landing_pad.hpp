@@ -1,8 +1,8 @@
 // Makes handlers of exceptions find the type of what was thrown where there are threads (-fwasm-exceptions -pthread).
 //
 // Before a handler runs, the code that Clang makes asks the runtime which of the types it names fits. They exchange
-// question and answer in `__wasm_lpad_context`. The runtime of Debian's Emscripten has one of it for each thread; Clang 14
-// declares it as one for all, so that it reads an answer that nobody wrote, and only `catch (...)` catches anything.
+// question and answer in `__wasm_lpad_context`. The runtime of Debian's Emscripten has one of it for each thread; Clang
+// 14 declares it as one for all, so that it reads an answer that nobody wrote, and only `catch (...)` catches anything.
 //
 //     handler, Clang 14            runtime, libunwind-mt-except.a
 //     writes to 0x1234    -x->     reads from the thread's storage + 0x10

@@ -2,8 +2,9 @@
 // header in front of every source (-include), and only where it compiles for browsers. The functions stand in the
 // namespace std, as those of later versions of the library do, so that the sources need not know.
 //
-// Numbers must become the same text as in the native program (libstdc++), and text the same numbers: standard_library.cpp
-// takes the digits from {fmt} and reads with fast_float, from which the reader of libstdc++ descends.
+// Numbers must become the same text as in the native program (libstdc++), and text the same numbers:
+// standard_library.cpp takes the digits from {fmt} and reads with fast_float, from which the reader of libstdc++
+// descends.
 #pragma once
 
 #include <atomic>
@@ -25,7 +26,8 @@ constexpr To bit_cast(const From& from) noexcept {
     return __builtin_bit_cast(To, from);
 }
 
-/// On the operations of Clang, which need no lock for numbers of 1, 2, 4 and 8 bytes. The order is always the strictest.
+/// On the operations of Clang, which need no lock for numbers of 1, 2, 4 and 8 bytes. The order is always the
+/// strictest.
 template <class T>
 class atomic_ref {
 public:

@@ -1,5 +1,5 @@
-// Prints what numbers become as text, and texts as numbers: one hash for each thousand of them. Compiled natively and to
-// WebAssembly, it must print the same (numbers.mjs).
+// Prints what numbers become as text, and texts as numbers: one hash for each thousand of them. Compiled natively and
+// to WebAssembly, it must print the same (numbers.mjs).
 #include <bit>
 #include <charconv>
 #include <cmath>

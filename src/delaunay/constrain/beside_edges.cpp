@@ -24,8 +24,8 @@ struct PlaceBesideEdge {
     double left;   ///< the distance from its line
 };
 
-/// Walks from constrained edges through the triangles that come near to them. No vertex lies in the narrow strip that is
-/// near, or the walk ends, so edges cut the strip in two and no triangle is met twice.
+/// Walks from constrained edges through the triangles that come near to them. No vertex lies in the narrow strip that
+/// is near, or the walk ends, so edges cut the strip in two and no triangle is met twice.
 class BesideSearch {
 public:
     BesideSearch(std::span<const Point> points, const Tris& tris) : points_(points), tris_(tris) {}
@@ -51,7 +51,8 @@ public:
     }
 
 private:
-    /// Returns how near vertices to a segment must be to be looked at. Rounding must not hide one that planarize() finds.
+    /// Returns how near vertices to a segment must be to be looked at. Rounding must not hide one that planarize()
+    /// finds.
     static PassingDistances near_to(Point a, Point b) {
         const PassingDistances exact = passing_distances(a, b);
         return {1.5 * exact.from_edge, 0.9 * exact.from_ends};
@@ -59,8 +60,8 @@ private:
 
     /// Returns whether a vertex on the side of the edge's triangle is near to the edge.
     ///
-    /// The sides of most triangles are constrained or so steep that they are not near at near.from_ends from the end. No
-    /// other triangle has to be looked at then, which is seen without a division.
+    /// The sides of most triangles are constrained or so steep that they are not near at near.from_ends from the end.
+    /// No other triangle has to be looked at then, which is seen without a division.
     bool finds(Link edge, PassingDistances near) {
         const Tri& tri = tris_[edge.triangle()];
         if (tri.is_ghost()) return false;
@@ -95,7 +96,8 @@ private:
     }
     bool is_between_ends(double along) const { return along > near_.from_ends && along < length_ - near_.from_ends; }
 
-    /// Looks at the corner of a triangle that lies opposite the edge by which it is entered. Returns whether it is near.
+    /// Looks at the corner of a triangle that lies opposite the edge by which it is entered. Returns whether it is
+    /// near.
     bool enter(Link way) {
         const Tri& tri = tris_[way.triangle()];
         if (tri.is_ghost()) return false;
@@ -135,8 +137,8 @@ bool may_pass_beside_vertex(std::span<const Point> points, std::span<const Segme
     const Tris& tris = triangulated.tris;
     const std::vector<SegmentPiece>& pieces = triangulated.pieces;
     constexpr std::size_t grain = 10'000;
-    // Where each segment is one edge, its ends say how near it may pass, and a search of the triangles in their order is
-    // many times as quick as one that looks up the edges.
+    // Where each segment is one edge, its ends say how near it may pass, and a search of the triangles in their order
+    // is many times as quick as one that looks up the edges.
     const bool are_whole = pieces.size() == segments.size();
     const auto found =
         core::parallel_blocks(are_whole ? tris.size() : pieces.size(), grain, [&](std::size_t begin, std::size_t end) {

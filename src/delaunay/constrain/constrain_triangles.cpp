@@ -1,5 +1,5 @@
-// Flips make any triangulation constrained Delaunay (C. L. Lawson, Software for C1 surface interpolation, 1977). The tie
-// rule makes the result unique.
+// Flips make any triangulation constrained Delaunay (C. L. Lawson, Software for C1 surface interpolation, 1977). The
+// tie rule makes the result unique.
 #include <algorithm>
 #include <cassert>
 #include <vector>
@@ -65,8 +65,8 @@ private:
     std::vector<std::uint64_t> keys_;
 };
 
-/// Returns for each point the one that stands for it where segments end: itself if a triangle has it, and else the first
-/// equal one that a triangle has.
+/// Returns for each point the one that stands for it where segments end: itself if a triangle has it, and else the
+/// first equal one that a triangle has.
 std::vector<Index> stand_ins_of_equal_points(std::span<const Point> points, std::span<const Triangle> triangles) {
     std::vector<char> used(points.size(), 0);
     for (const Triangle& t : triangles)

@@ -204,8 +204,8 @@ private:
     }
 
     /// Walks along a -> b and collects the crossed triangles and the chains on both sides. Stops at the first vertex on
-    /// the segment, at the latest b, which becomes the `end`; or before that, at a constrained edge or a triangle beyond
-    /// the reach. Does not change the triangulation.
+    /// the segment, at the latest b, which becomes the `end`; or before that, at a constrained edge or a triangle
+    /// beyond the reach. Does not change the triangulation.
     Insertion collect_crossed(Link exit, Index a, Index b, Index& end) {
         const std::span<const Point> points = input_.points;
         polygons_.clear();

@@ -13,8 +13,8 @@
 //       /   \         cb is at least ab; say ac >= ab. If d does not serve either, then ad >= ab (for bd >= ab would
 //      a     d        give ac + bd >= 2 ab). Then bd < cd and cb < cd, so that b serves c-d.
 //
-// Where nothing crosses any more, pieces are led through vertices that they pass within rounding. What lies between is a
-// sliver that no refinement can mend, and its vertex is a crossing that was rounded, or lies on the segment but for
+// Where nothing crosses any more, pieces are led through vertices that they pass within rounding. What lies between is
+// a sliver that no refinement can mend, and its vertex is a crossing that was rounded, or lies on the segment but for
 // rounding. Pieces bend by less than the tolerance, and where they cross others because of that the rounds go on.
 //
 // Why this ends: vertices are added only at a distance from all others, so there are finitely many. Between two

@@ -17,12 +17,12 @@ struct PlanarSegments {
 /// Splits segments at the points on them and at their crossings. A crossing is rounded to doubles, or is a vertex that
 /// stands so near that both segments may run through it. Segments are also led through vertices that they pass within
 /// rounding (passing_distances()), so that no slivers stand between. Rounding bends the pieces, which may then cross
-/// anew, so this is repeated until none do. It always ends, and the pieces of a segment stay within max_bend() of it. The Steiner
-/// points depend on neither the order nor the direction of the segments. Segments from a point to itself have no
-/// pieces. Throws InputError, with two segments, where rounding would bend a segment further; in trials only one of a
-/// thousand inputs whose coordinates spread over a hundred decades did.
-/// Segments are also led through vertices at most `snap` away, where these stand apart from the ends of what is led
-/// through them; pieces then stay within four times this distance of their segment, if that is more than max_bend().
+/// anew, so this is repeated until none do. It always ends, and the pieces of a segment stay within max_bend() of it.
+/// The Steiner points depend on neither the order nor the direction of the segments. Segments from a point to itself
+/// have no pieces. Throws InputError, with two segments, where rounding would bend a segment further; in trials only
+/// one of a thousand inputs whose coordinates spread over a hundred decades did. Segments are also led through vertices
+/// at most `snap` away, where these stand apart from the ends of what is led through them; pieces then stay within four
+/// times this distance of their segment, if that is more than max_bend().
 PlanarSegments planarize(std::span<const Point> points, std::span<const Segment> segments, double snap = 0);
 
 /// Returns how far pieces may stand from the segment a-b that they are parts of: 16 units in the last place of its

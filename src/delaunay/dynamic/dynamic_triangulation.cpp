@@ -23,8 +23,8 @@ namespace lamina {
 using namespace delaunay;
 using namespace delaunay::dynamic;
 
-/// Vertices are numbered in the order of their insertion, so that what is near in the plane is near in memory. Here they
-/// get the numbers of points.
+/// Vertices are numbered in the order of their insertion, so that what is near in the plane is near in memory. Here
+/// they get the numbers of points.
 class DynamicTriangulation::Data : public DynamicTris {
 public:
     std::vector<Point> points;              ///< by the numbers of points

@@ -48,8 +48,8 @@ public:
 
     /// Inserts a segment as insert_segment() does. Where it crosses a constrained edge nothing changes.
     std::optional<CrossedEdge> insert_segment(Segment segment, std::vector<SegmentPiece>& pieces);
-    /// Returns the constrained edges on the straight way from a to b, each by a triangle that has it; nothing if the way
-    /// does not consist of them.
+    /// Returns the constrained edges on the straight way from a to b, each by a triangle that has it; nothing if the
+    /// way does not consist of them.
     std::optional<std::vector<Link>> find_constrained_way(Index a, Index b) const;
     /// Makes constrained edges others, and flips edges until the triangulation is constrained Delaunay again.
     void release(std::span<const Link> edges);

@@ -1,7 +1,7 @@
-// Removal of a vertex. The triangles round it leave a polygon that is star-shaped from it. Ears are cut off this polygon,
-// in the order in which they would appear if the vertex rose from the paraboloid of the Delaunay property: then hardly
-// any edge has to be flipped afterwards. Ears are those of convex corners that leave the vertex in what remains, so what
-// remains stays star-shaped, and there is always one.
+// Removal of a vertex. The triangles round it leave a polygon that is star-shaped from it. Ears are cut off this
+// polygon, in the order in which they would appear if the vertex rose from the paraboloid of the Delaunay property:
+// then hardly any edge has to be flipped afterwards. Ears are those of convex corners that leave the vertex in what
+// remains, so what remains stays star-shaped, and there is always one.
 //
 //        w2 ----- w1                w2 ----- w1
 //       /  \     / \               /  \ ear   \.           On the hull the polygon is open towards infinity. Ears are

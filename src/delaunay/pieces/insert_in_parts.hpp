@@ -19,9 +19,9 @@ struct InsertedInParts {
 };
 
 /// Inserts the segments with these indices, which ascend, as insert_uncrossed_segments() does. Where they cross many
-/// triangles and lines between them divide them evenly, the parts of the plane are worked on at the same time; the order
-/// of triangles depends on the parts and not on threads. Preconditions: `tris` is closed by ghosts, and the ends of
-/// segments are among the points.
+/// triangles and lines between them divide them evenly, the parts of the plane are worked on at the same time; the
+/// order of triangles depends on the parts and not on threads. Preconditions: `tris` is closed by ghosts, and the ends
+/// of segments are among the points.
 InsertedInParts insert_in_parts(std::span<const Point> points, std::span<const Segment> segments,
                                 std::span<const Index> which, Tris& tris, std::vector<Index>& at_vertex);
 

@@ -114,8 +114,8 @@ NaturalNeighbours on_edge_between(const QueryIndex& index, Index a, Index b, Poi
     return {{VertexId{index.point_ids[a]}, VertexId{index.point_ids[b]}}, {to_b / (to_a + to_b), to_a / (to_a + to_b)}};
 }
 
-/// Returns whether the weighted mean of the neighbours is p, as Sibson's identity says. Where neighbours lie on a line up
-/// to rounding, centres are so far away that the areas are lost.
+/// Returns whether the weighted mean of the neighbours is p, as Sibson's identity says. Where neighbours lie on a line
+/// up to rounding, centres are so far away that the areas are lost.
 bool reproduces(const QueryIndex& index, const SibsonCavity& cavity, const NaturalNeighbours& neighbours, Point p) {
     constexpr double tolerance = 1e-9;
     Point mean;

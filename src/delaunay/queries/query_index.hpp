@@ -72,8 +72,8 @@ VertexId nearest_point(const QueryIndex& index, Index found, Point p);
 /// Returns the natural neighbours of p, which the triangle or ghost `found` holds.
 NaturalNeighbours natural_neighbours_at(const QueryIndex& index, Index found, Point p);
 
-/// Calls answer(i, found) for each query, on all threads, where `found` holds queries[i]; no_index for points outside the
-/// exact range, and where there are no triangles. The order is that of the curve.
+/// Calls answer(i, found) for each query, on all threads, where `found` holds queries[i]; no_index for points outside
+/// the exact range, and where there are no triangles. The order is that of the curve.
 void for_each_found(const QueryIndex& index, std::span<const Point> queries,
                     const std::function<void(std::size_t, Index)>& answer);
 

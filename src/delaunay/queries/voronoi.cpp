@@ -23,8 +23,8 @@ namespace {
 
 constexpr std::size_t cells_per_block = 4096;
 
-/// Cuts off the part of a convex polygon that is nearer to site + to_other than to the site. Corners are relative to the
-/// site. `scratch` takes the old polygon.
+/// Cuts off the part of a convex polygon that is nearer to site + to_other than to the site. Corners are relative to
+/// the site. `scratch` takes the old polygon.
 void cut_by_bisector(std::vector<Point>& polygon, Point to_other, std::vector<Point>& scratch) {
     const double reach = 0.5 * squared_length(to_other);
     const auto excess = [&](Point p) { return dot(p, to_other) - reach; };

@@ -29,8 +29,9 @@ inline double shortest_edge(double magnitude, double extent) {
     return std::max(share_of_magnitude * magnitude, share_of_extent * extent);
 }
 
-/// Returns the distance from the line a-b below which vertices on both sides cannot be told apart: a triangle between them
-/// that keeps an angle bound would have an edge on the line that is shorter than shortest_edge(), except near the origin.
+/// Returns the distance from the line a-b below which vertices on both sides cannot be told apart: a triangle between
+/// them that keeps an angle bound would have an edge on the line that is shorter than shortest_edge(), except near the
+/// origin.
 ///
 ///       .------v----------.       where segments cross within rounding, or by mistake: v lies 1e-17 above a-b
 ///     a ------------------- b
@@ -89,9 +90,9 @@ public:
     /// corner that is opposite, or where the line of one of the three vertices ends; or lines of straight chains that
     /// meet so at any vertex.
     bool join_sharp_lines(std::span<const Point> points, const SidedEdge& edge) const;
-    /// Returns whether the edge joins such lines, and its vertices are at the same distance from the corner, or the corner
-    /// is opposite. A narrow triangle whose shortest edge this is is then left as it is. Source: G. Miller, S. Pav, N.
-    /// Walkington, Int. J. Comput. Geom. Appl. 15 (2005).
+    /// Returns whether the edge joins such lines, and its vertices are at the same distance from the corner, or the
+    /// corner is opposite. A narrow triangle whose shortest edge this is is then left as it is. Source: G. Miller, S.
+    /// Pav, N. Walkington, Int. J. Comput. Geom. Appl. 15 (2005).
     bool join_shells(std::span<const Point> points, const SidedEdge& edge) const;
     /// Returns the vertex at which a line, or its straight chain, meets, at less than 60 degrees, a line or chain that
     /// vertex p splits or ends; no_index if there is none.
@@ -99,8 +100,8 @@ public:
     /// Returns whether vertex p splits, ends or divides a chain that nearly coincides with that of a line
     /// (coincidence_share).
     bool nearly_coincide(Index line, Index p) const;
-    /// Returns whether two vertices of a triangle split, end or divide chains that nearly coincide, and the third one such
-    /// a chain or another that nearly coincides with one of them.
+    /// Returns whether two vertices of a triangle split, end or divide chains that nearly coincide, and the third one
+    /// such a chain or another that nearly coincides with one of them.
     bool lies_between_coincident_chains(const Tri& tri) const;
     /// Returns whether p lies between the lines of a sharp corner at vertex u. Exact.
     bool in_sharp_corner(std::span<const Point> points, Index u, Point p) const;

@@ -5,8 +5,8 @@
 // triangulation, the nearest triangles first.
 //
 // d grows by at most 1 per unit of length. Where it is linear between three places it is taken to be so between the
-// outer ones; otherwise the interval is divided, by the golden section, since vertices of real inputs often lie at equal
-// distances. The walks have a budget. What they do not reach, and what they miss, counts as nothing.
+// outer ones; otherwise the interval is divided, by the golden section, since vertices of real inputs often lie at
+// equal distances. The walks have a budget. What they do not reach, and what they miss, counts as nothing.
 #include "delaunay/refine/estimate_angles.hpp"
 
 #include <algorithm>
@@ -134,8 +134,9 @@ double ChannelSurvey::distance_from(Point p) {
     return std::max(nearest, shortest_edge(magnitude(p), length_));
 }
 
-/// Returns whether a vertex is an end of the edge, or is on another side of a sharp corner of its line, or on a chain that
-/// nearly coincides: a vertex in a corner asks for another one at the same distance from it, and for nothing between.
+/// Returns whether a vertex is an end of the edge, or is on another side of a sharp corner of its line, or on a chain
+/// that nearly coincides: a vertex in a corner asks for another one at the same distance from it, and for nothing
+/// between.
 bool ChannelSurvey::is_left_alone(Index v) const {
     return v == ends_[0] || v == ends_[1] || lines_.nearly_coincide(line_, v) ||
            lines_.facing_corner(input_.points, line_, v) != no_index;

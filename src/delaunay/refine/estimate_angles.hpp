@@ -12,8 +12,8 @@ struct AngleEstimate {
     double growing = 0;      ///< round small edges, and on the open sides of channels: from small ones to large ones
 };
 
-/// Estimates the triangles once all angles reach the bound. Edges are cut into parts about as long as the channel beside
-/// them is wide. `lines` are the borders of the input.
+/// Estimates the triangles once all angles reach the bound. Edges are cut into parts about as long as the channel
+/// beside them is wide. `lines` are the borders of the input.
 AngleEstimate estimate_for_angles(const ConstrainedInput& input, const BorderLines& lines, double min_angle_deg);
 
 }  // namespace lamina::delaunay

@@ -20,8 +20,8 @@ struct LatticeObstacle {
 };
 
 /// Fills the region on the left of the segments with patches wherever sizes are so even that a patch pays. Returns no
-/// patches where none pays, or where they would go far beyond `options.max_points`. The triangles obey the size bound of
-/// refine(). Where `linked`, they know their neighbours. Collars keep about the distance of a lattice row from the
+/// patches where none pays, or where they would go far beyond `options.max_points`. The triangles obey the size bound
+/// of refine(). Where `linked`, they know their neighbours. Collars keep about the distance of a lattice row from the
 /// border, from all points and from each other, and the radii of the obstacles from these. Boundary edges of patches
 /// are longer than frozen edges may be. The collar, one row of points that refinement connects as it likes, keeps new
 /// points away from them.

@@ -181,8 +181,8 @@ private:
 };
 
 /// The triangles between rows j (`here`) and j + 1 (`above`), and those of their edges across which the patch has no
-/// triangle. Boundary edges are directed with the seam on their left, against the triangle. Where the patches are linked,
-/// `own` takes the strip's triangles; `below` are those of the strip below.
+/// triangle. Boundary edges are directed with the seam on their left, against the triangle. Where the patches are
+/// linked, `own` takes the strip's triangles; `below` are those of the strip below.
 ///
 ///        C ------- D      row j + 1      The triangle up (i) has A = i and B = i + 1 in row j; its apex C is in
 ///       /  \      /                      column i of row j + 1, or i + 1 if row j is odd.

@@ -55,8 +55,8 @@ public:
         reserve(static_cast<std::size_t>(std::min(expected, max_triangles)));
     }
 
-    /// Returns the refinement and stores its links, unless `links` is null. It may be called once only, since it frees the
-    /// refiner's memory as it goes.
+    /// Returns the refinement and stores its links, unless `links` is null. It may be called once only, since it frees
+    /// the refiner's memory as it goes.
     Refinement refine(core::EdgeLinks* links);
 
 private:

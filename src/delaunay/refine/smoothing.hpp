@@ -126,8 +126,8 @@ private:
         Index t, n;
         Tri old_t, old_n;
     };
-    /// A vertex, as one pass over all triangles finds it where all vertices move together. Its facts stand side by side,
-    /// since each triangle writes all of them.
+    /// A vertex, as one pass over all triangles finds it where all vertices move together. Its facts stand side by
+    /// side, since each triangle writes all of them.
     struct Vertex {
         Point sum{0, 0};      ///< of its neighbours
         Index triangle = 0;   ///< one of its triangles
@@ -199,7 +199,8 @@ private:
         for (const Index v : tris[t + ahead].v) fetch(v);
     }
 
-    /// Calls visit(tri, t, vertices, points) for each triangle, with what is known of the vertices of later ones fetched.
+    /// Calls visit(tri, t, vertices, points) for each triangle, with what is known of the vertices of later ones
+    /// fetched.
     template <class Visit>
     void visit_triangles(Visit visit) {
         Vertex* const vertices = vertices_.data();
@@ -393,8 +394,8 @@ private:
         for (const Flip& flip : flips_) triangles.insert(triangles.end(), {flip.t, flip.n});
     }
 
-    /// Moves one vertex of a triangle, if that makes the worst triangle round it better: to the mean of its neighbours or
-    /// half the way, else a part of the way to where the worst triangles would have it. Returns whether the vertex
+    /// Moves one vertex of a triangle, if that makes the worst triangle round it better: to the mean of its neighbours
+    /// or half the way, else a part of the way to where the worst triangles would have it. Returns whether the vertex
     /// moved.
     bool move(Index t, unsigned corner) {
         if (!find_star(t, corner)) return false;
@@ -424,9 +425,9 @@ private:
         return false;
     }
 
-    /// Finds the triangles round a vertex, counter-clockwise. Returns false if the vertex may not move, or has so many that
-    /// its moves would take a time that grows with their square: opposite narrow channels there are 1e5 round one vertex,
-    /// each of which asks for a move.
+    /// Finds the triangles round a vertex, counter-clockwise. Returns false if the vertex may not move, or has so many
+    /// that its moves would take a time that grows with their square: opposite narrow channels there are 1e5 round one
+    /// vertex, each of which asks for a move.
     bool find_star(Index t, unsigned corner) {
         constexpr std::size_t most_triangles = 256;
         const Index first = t, v = tris_[t].v[corner];

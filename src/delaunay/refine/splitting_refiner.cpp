@@ -102,8 +102,8 @@ double SplittingRefiner::unresolved_distance(Index line) const {
     return line == no_index ? 0 : scale_ * lines_.unresolved_distance(line);
 }
 
-/// Returns whether a vertex is so near to the edge a-b of a line that no split helps, or on a chain that nearly coincides
-/// with that of the line.
+/// Returns whether a vertex is so near to the edge a-b of a line that no split helps, or on a chain that nearly
+/// coincides with that of the line.
 bool SplittingRefiner::is_left_alone(Index a, Index b, Index p) const {
     const Index line = lines_.line_of_edge(a, b);
     return core::distance_to_segment(points_[p], points_[a], points_[b]) < unresolved_distance(line) ||
@@ -162,16 +162,16 @@ Point SplittingRefiner::division_point(Index t, Index a, Index b) const {
     return lines_.division_point(points_, a, b);
 }
 
-/// Returns at which share to split the edge a-b of a line opposite vertex p on another line of the same sharp corner: as
-/// far from the corner as p is; 0 if p is on no such line, or a part would be shorter than the distance from p.
+/// Returns at which share to split the edge a-b of a line opposite vertex p on another line of the same sharp corner:
+/// as far from the corner as p is; 0 if p is on no such line, or a part would be shorter than the distance from p.
 ///
 ///                 .--p------       Wherever vertices of one line come to stand, the same radii split the other. What
 ///       corner --------o----       lies between has its shortest edges across, which are left as they are, so that
 ///                                  vertices that the lines' outer sides ask for do not fill the corner.
 ///
 /// The new vertex is nearest to p, and so is not the begin of ever shorter edges. Source: circles round corners: J.
-/// Ruppert, J. Algorithms 18 (1995), "corner lopping"; which edges may be shorter: J. R. Shewchuk, Comput. Geom. 22 (2002),
-/// section 4.
+/// Ruppert, J. Algorithms 18 (1995), "corner lopping"; which edges may be shorter: J. R. Shewchuk, Comput. Geom. 22
+/// (2002), section 4.
 double SplittingRefiner::share_in_corner(Index a, Index b, Index p) const {
     const Index line = lines_.line_of_edge(a, b), corner = lines_.facing_corner(points_, line, p);
     if (corner == no_index) return 0;
@@ -388,8 +388,8 @@ bool SplittingRefiner::split(Index t, unsigned e) {
 }
 
 /// Returns whether the cavity was found, and the point p that splits the edge a-b lies strictly on the inner side of
-/// all other edges of the cavity's boundary, and outside the diametral circles of those that are frozen. The cavity must
-/// reach across an edge that is no border; it does not where rounding puts p farther off the edge than the circle
+/// all other edges of the cavity's boundary, and outside the diametral circles of those that are frozen. The cavity
+/// must reach across an edge that is no border; it does not where rounding puts p farther off the edge than the circle
 /// across it reaches.
 bool SplittingRefiner::cavity_admits_split(Point p, Index a, Index b, bool is_border) const {
     const std::size_t k = cavity_.boundary.size();

@@ -231,8 +231,8 @@ inline bool is_edge_outside(const Tris& tris, const CavityEdge& edge, Index b) {
     return t.v[next(k)] == b && t.v[previous(k)] == edge.a && t.n[k].is_constrained() == edge.outer.is_constrained();
 }
 
-/// Returns whether the boundary of a cavity has as many edges as the formula of Euler says of its triangles, and each of
-/// them is that of the triangle outside. For assertions.
+/// Returns whether the boundary of a cavity has as many edges as the formula of Euler says of its triangles, and each
+/// of them is that of the triangle outside. For assertions.
 inline bool is_bounded(const Tris& tris, const Cavity& cavity) {
     if (cavity.triangles.size() == 0 || cavity.boundary.size() != cavity.triangles.size() + 2) return false;
     for (std::size_t i = 0; i < cavity.boundary.size(); ++i)

@@ -52,9 +52,9 @@ std::vector<std::size_t> make_runs(std::span<NumberedPoint> points) {
     return ends;
 }
 
-/// Returns the place of each point in the lexicographic order of all. Successive points of a border lie on few straight lines,
-/// so they are long runs, which are merged. Source: D. E. Knuth, The Art of Computer Programming 3 (1998), 5.2.4, natural
-/// merging.
+/// Returns the place of each point in the lexicographic order of all. Successive points of a border lie on few straight
+/// lines, so they are long runs, which are merged. Source: D. E. Knuth, The Art of Computer Programming 3 (1998),
+/// 5.2.4, natural merging.
 std::vector<Index> ranks_of(std::span<const Point> points) {
     std::vector<NumberedPoint> sorted = rounded(points), merged(points.size());
     for (std::vector<std::size_t> ends = make_runs(sorted); ends.size() > 1;) {
@@ -76,8 +76,8 @@ std::vector<Index> ranks_of(std::span<const Point> points) {
 
 }  // namespace
 
-// Points are distinct, and a directed edge has one triangle on its left: the first two vertices of a triangle decide its
-// place. They are those of an edge of the border where it has one: of four points on a circle, and two edges of the
+// Points are distinct, and a directed edge has one triangle on its left: the first two vertices of a triangle decide
+// its place. They are those of an edge of the border where it has one: of four points on a circle, and two edges of the
 // border between them, rounding decides which diagonal the triangles share, but not which edges they stand on.
 Tris in_order_of_place(std::span<const Point> points, const Tris& tris) {
     assert(are_linked(tris));

@@ -44,8 +44,8 @@ std::vector<double> smoothed(std::span<const Station> at, std::span<const double
     return x;
 }
 
-/// Returns the flux that stations displace after a step towards what their layers displace, or after the first step, which
-/// takes all of that.
+/// Returns the flux that stations displace after a step towards what their layers displace, or after the first step,
+/// which takes all of that.
 std::vector<double> next_displaced(std::span<const Station> stations, std::span<const StationLayer> layers,
                                    double length, bool is_first) {
     std::vector<double> changes;
@@ -62,7 +62,8 @@ std::vector<double> next_displaced(std::span<const Station> stations, std::span<
     return changes;
 }
 
-/// Returns the numbers of stations at places along them, up to the last station. `picked` are the places of the stations.
+/// Returns the numbers of stations at places along them, up to the last station. `picked` are the places of the
+/// stations.
 std::vector<double> at_places(std::span<const double> places, std::span<const std::size_t> picked,
                               std::span<const double> numbers) {
     std::vector<double> along;

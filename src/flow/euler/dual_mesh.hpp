@@ -31,8 +31,8 @@ struct BoundaryEdge {
     BoundaryKind kind;
 };
 
-/// The median dual. Vertices are numbered anew, in the order of E. Cuthill and J. McKee (Proc. 24th Nat. Conf. ACM, 1969),
-/// in which sweeps carry changes far.
+/// The median dual. Vertices are numbered anew, in the order of E. Cuthill and J. McKee (Proc. 24th Nat. Conf. ACM,
+/// 1969), in which sweeps carry changes far.
 struct DualMesh {
     std::vector<std::uint32_t> given;      ///< per vertex: its number in the triangulation
     std::vector<std::uint32_t> number_of;  ///< per vertex of the triangulation: its number here
@@ -44,13 +44,14 @@ struct DualMesh {
     std::vector<std::uint32_t> begins, neighbours;
     /// Per edge: the index k at which its end i has j as neighbour, and the one at which j has i.
     std::vector<std::array<std::uint32_t, 2>> places;
-    /// Per vertex: the inverse of the symmetric matrix of least-squares gradients with weights 1 / length^2: xx, xy, yy.
+    /// Per vertex: the inverse of the symmetric matrix of least-squares gradients with weights 1 / length^2: xx, xy,
+    /// yy.
     /// Source: T. J. Barth, AIAA-91-0721.
     std::vector<std::array<double, 3>> gradient_inverses;
 };
 
-/// Returns the dual of a triangulation, without its boundary, or an empty mesh where a vertex does not hang together with
-/// the first one. `first` gets the number 0. Precondition: triangles are counter-clockwise.
+/// Returns the dual of a triangulation, without its boundary, or an empty mesh where a vertex does not hang together
+/// with the first one. `first` gets the number 0. Precondition: triangles are counter-clockwise.
 DualMesh make_dual_mesh(std::span<const Point> points, std::span<const Triangle> triangles, VertexId first);
 
 /// Adds an edge of the boundary, directed with the gas at its left.

@@ -101,8 +101,8 @@ void update_forces(Iteration& flow) {
     flow.far.lift = flow.lift;
 }
 
-/// Makes one step and changes `cfl` for the next one. Returns the root mean square of the residuals of the density before
-/// it, each over the wave speeds of its control volume, so that large volumes count no more than small ones.
+/// Makes one step and changes `cfl` for the next one. Returns the root mean square of the residuals of the density
+/// before it, each over the wave speeds of its control volume, so that large volumes count no more than small ones.
 double step(Iteration& flow, const EulerOptions& options, int order, double& cfl) {
     constexpr double share_of_halved = 0.005;  // vertices with halved changes that make time steps smaller
     const std::size_t vertices = flow.mesh.points.size();

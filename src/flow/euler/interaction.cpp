@@ -56,8 +56,8 @@ struct State {
     double speed;
 };
 
-/// Returns what lies behind a step of these rates. No step more than doubles or halves anything, and many of them, as round
-/// bluff bodies, where layers and flow do not become steady together, leave numbers finite.
+/// Returns what lies behind a step of these rates. No step more than doubles or halves anything, and many of them, as
+/// round bluff bodies, where layers and flow do not become steady together, leave numbers finite.
 State advanced(const State& state, const State& rates, double step, double fastest) {
     constexpr double thickest = 1;  // momentum thickness, in chords
     const double momentum = state.layer.momentum, speed = state.speed;

@@ -44,8 +44,8 @@ double limited_mean(double ahead, double across, double threshold) {
     return across > 0 ? std::max(mean, 0.0) : std::min(mean, 0.0);
 }
 
-/// Returns the state at the middle of an edge, seen from the end that has this state and gradient. `across` is the change
-/// to the other end, which is `d` away.
+/// Returns the state at the middle of an edge, seen from the end that has this state and gradient. `across` is the
+/// change to the other end, which is `d` away.
 Four reconstructed(const Four& state, const std::array<Four, 2>& gradient, const Four& across, Point d,
                    double threshold) {
     constexpr double least = 0.02;  // of the free stream's density, and as a pressure

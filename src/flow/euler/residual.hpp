@@ -17,8 +17,8 @@ struct FarFlow {
     Point vortex{};      ///< where the vortex of the lift sits
 };
 
-/// Returns the state at a point of the far field: the free stream and, below Mach 1, the vortex of the lift in it, after
-/// Prandtl and Glauert, with the free stream's entropy and total enthalpy.
+/// Returns the state at a point of the far field: the free stream and, below Mach 1, the vortex of the lift in it,
+/// after Prandtl and Glauert, with the free stream's entropy and total enthalpy.
 /// Source: J. L. Thomas, M. D. Salas, AIAA J. 24 (1986).
 Four far_state(const FarFlow& far, Point at);
 

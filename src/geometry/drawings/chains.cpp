@@ -18,7 +18,8 @@ namespace lamina::geometry {
 
 namespace {
 
-/// The places where curves end: ends within the tolerance of the first one found there, and of their own, are one place.
+/// The places where curves end: ends within the tolerance of the first one found there, and of their own, are one
+/// place.
 class Places {
 public:
     /// `tolerance` is the largest of all; `origin` is one of the places, roughly.
@@ -193,9 +194,9 @@ private:
 
     bool joins_crossings(const Edge& e) const { return ends_[e.from].size() > 2 && ends_[e.to].size() > 2; }
 
-    /// Removes straight lines between places where more than two curves meet. Beside a line inside of an outline, such as
-    /// a spar, edges of the outline are such lines, too, but without these it would fall into parts: of the longest and
-    /// the shortest ones first, what keeps it whole counts. Throws InputError where neither does.
+    /// Removes straight lines between places where more than two curves meet. Beside a line inside of an outline, such
+    /// as a spar, edges of the outline are such lines, too, but without these it would fall into parts: of the longest
+    /// and the shortest ones first, what keeps it whole counts. Throws InputError where neither does.
     std::size_t prune_straight() {
         std::vector<std::size_t> candidates;
         for (std::size_t i = 0; i < edges_.size(); ++i)

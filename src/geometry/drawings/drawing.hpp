@@ -26,8 +26,8 @@ struct Drawing {
     std::size_t control_points = 0;               ///< of all curves
 };
 
-/// The readers of texts whose format is known. Each throws InputError, with the line, for damaged numbers and for curves
-/// that are defined by nothing. What a drawing declares allocates nothing: lists grow as their entries are read.
+/// The readers of texts whose format is known. Each throws InputError, with the line, for damaged numbers and for
+/// curves that are defined by nothing. What a drawing declares allocates nothing: lists grow as their entries are read.
 Drawing read_dxf(std::string_view text, const std::string& file);
 Drawing read_svg(std::string_view text, const std::string& file);
 Drawing read_iges(std::string_view text, const std::string& file);
@@ -40,8 +40,8 @@ inline constexpr std::size_t max_drawn_curves = 1'000'000, max_control_points = 
 /// nothing but the names of shapes, so that it takes no more memory than they do.
 bool leave_out_point(Drawing& drawing, const SpaceCurve& curve);
 
-/// Adds a curve to a drawing, unless it is a point. Throws InputError where it has a defect, which names `what` it is, or where a drawing has
-/// too many curves.
+/// Adds a curve to a drawing, unless it is a point. Throws InputError where it has a defect, which names `what` it is,
+/// or where a drawing has too many curves.
 void add_curve(Drawing& drawing, DrawnCurve curve, const std::string& what, const std::string& file);
 
 /// Returns the number of a text in a drawing, with an exponent of either letter. Throws InputError.

@@ -23,8 +23,8 @@ constexpr double max_turning = core::radians(4);  // along one edge
 constexpr double max_edge_share = 0.01;           // of an edge on a curve
 constexpr double max_ratio = 2.1;                 // of neighbouring edges
 constexpr double min_corner = core::radians(1);
-/// Polylines beside curves may be samples of curves, too. A vertex between two of their sides is a corner where it turns
-/// by this, or one side is longer than this share.
+/// Polylines beside curves may be samples of curves, too. A vertex between two of their sides is a corner where it
+/// turns by this, or one side is longer than this share.
 constexpr double min_corner_of_sides = core::radians(10), long_side_share = 0.05;
 constexpr double min_length_share = 1e-9;
 constexpr std::size_t max_samples = 2'000'000;

@@ -20,10 +20,11 @@ struct SampledChain {
 /// Returns a few points of a chain, for its box and its area.
 std::vector<Point> rough_points(std::span<const FlatCurve> curves, const Chain& chain);
 
-/// Samples a chain: straight parts have their vertices alone, and curves so many points that no edge leaves the curve by
-/// more than `max_deviation`, turns by more than some degrees or is longer than 1 % of `size`. Between two corners
-/// neighbouring edges differ by a factor of about 2 at most, for which straight parts beside curves are divided. Corners
-/// are the places where a chain with curves turns at once by more than a degree. Throws InputError for too many points.
+/// Samples a chain: straight parts have their vertices alone, and curves so many points that no edge leaves the curve
+/// by more than `max_deviation`, turns by more than some degrees or is longer than 1 % of `size`. Between two corners
+/// neighbouring edges differ by a factor of about 2 at most, for which straight parts beside curves are divided.
+/// Corners are the places where a chain with curves turns at once by more than a degree. Throws InputError for too many
+/// points.
 SampledChain sample(std::span<const FlatCurve> curves, const Chain& chain, double size, double max_deviation,
                     const std::string& file);
 

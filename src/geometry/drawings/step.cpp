@@ -1,4 +1,5 @@
-// STEP: numbered instances "#12=NAME(...);" that name each other. Of a part the edges are read, of a drawing its curves.
+// STEP: numbered instances "#12=NAME(...);" that name each other. Of a part the edges are read, of a drawing its
+// curves.
 // Source: ISO 10303-21 (2016), the text; ISO 10303-42, curves.
 #include <algorithm>
 #include <array>
@@ -355,8 +356,8 @@ private:
         add_part(number, spline, parameter_near(spline, a), parameter_near(spline, b));
     }
 
-    /// Adds the part of a spline from one of its parameters to another one: of a closed one that may be beyond its seam.
-    /// Precondition: the spline has no defect.
+    /// Adds the part of a spline from one of its parameters to another one: of a closed one that may be beyond its
+    /// seam. Precondition: the spline has no defect.
     void add_part(std::size_t number, const SpaceCurve& spline, double from, double to) {
         constexpr double rounding = 1e-6;
         const double gap = length(at(spline, spline.last) - at(spline, spline.first));
@@ -393,8 +394,8 @@ private:
         return size;
     }
 
-    /// Returns the parameter of the point of a curve that is nearest to another one: an end of the curve where that is as
-    /// near as rounding.
+    /// Returns the parameter of the point of a curve that is nearest to another one: an end of the curve where that is
+    /// as near as rounding.
     static double parameter_near(const SpaceCurve& curve, Point3 p) {
         constexpr std::size_t samples_of_piece = 8, rounds = 60;
         constexpr double rounding = 1e-9;

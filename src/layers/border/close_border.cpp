@@ -169,8 +169,8 @@ private:
         }
     }
 
-    /// Returns the first ray of the way out along the wake of an element, and the last one of the way back: the latter twice
-    /// where half of it is above a line of symmetry.
+    /// Returns the first ray of the way out along the wake of an element, and the last one of the way back: the latter
+    /// twice where half of it is above a line of symmetry.
     std::pair<std::size_t, std::size_t> ends_of_wake(std::size_t element) const {
         const auto on_wall = [&](std::size_t ray) { return set_.lines[ray].place == RayPlace::wall; };
         if (rays_.is_open(element)) {
@@ -273,8 +273,8 @@ private:
         return corner.layers == 0 ? origin_of_ray_[corner.ray] : VertexId(first_point_[corner.ray] + corner.layers - 1);
     }
 
-    /// Returns the height that a ray's points stay below because something is in its way. A ray that was lowered for its
-    /// neighbours' sake ends below the layer that it did not get.
+    /// Returns the height that a ray's points stay below because something is in its way. A ray that was lowered for
+    /// its neighbours' sake ends below the layer that it did not get.
     double height_limit(std::size_t ray) const {
         const HeightColumn& column = rays_.heights.column(ray);
         if (rays_.counts[ray] < column.layers) return rays_.heights.of(ray)[rays_.counts[ray] + 1];
@@ -312,7 +312,8 @@ Layer build_layer(const Rays& rays, const std::vector<std::vector<FrontCorner>>&
 
 // The corners of fronts, and the fronts as points.
 
-/// Adds the corners of a front at a ray and at the corners of the wall behind it. `ends` tells the last ray of the domain.
+/// Adds the corners of a front at a ray and at the corners of the wall behind it. `ends` tells the last ray of the
+/// domain.
 void add_corners(const Rays& rays, std::size_t i, std::size_t next, bool ends, std::vector<FrontCorner>& front) {
     const RayLine &ray = rays.set.lines[i], &behind = rays.set.lines[next];
     const bool on_wall = rays.counts[i] == 0 && rays.counts[next] == 0;

@@ -1,7 +1,7 @@
 // Outer borders must be graded before they are frozen, since no Delaunay refinement mends a long edge beside a short
 // one (docs/decisions/0003). First each edge gets the number of parts that its target length needs. Then, wherever the
-// parts on both sides of a corner differ by more than the allowed ratio, the edge of the longer part gets one more, until
-// nothing changes. Both steps treat the two directions of a front alike.
+// parts on both sides of a corner differ by more than the allowed ratio, the edge of the longer part gets one more,
+// until nothing changes. Both steps treat the two directions of a front alike.
 #include "layers/border/divide_borders.hpp"
 
 #include <algorithm>
@@ -20,8 +20,8 @@ namespace lamina::layers {
 // Target lengths as the minimum over cones, one round each source, of a slope of the gradation. A tree over the
 // sources finds the minimum at a point.
 
-// The edges of closed polygons in one list, with the indices of their neighbours: of fronts that are to be divided, and of
-// walls.
+// The edges of closed polygons in one list, with the indices of their neighbours: of fronts that are to be divided, and
+// of walls.
 
 namespace {
 
@@ -161,8 +161,8 @@ private:
     core::BoxTree tree_{{}};                    ///< over the sources
     std::vector<std::vector<double>> targets_;  ///< of the sources, grouped for the search in the tree
 
-    /// Adds the intervals between two points of an edge, which is halved until its parts are short beside the target in their
-    /// middles, which is at most `cap`.
+    /// Adds the intervals between two points of an edge, which is halved until its parts are short beside the target in
+    /// their middles, which is at most `cap`.
     void add_intervals(Point a, Point b, double length, double cap, std::vector<TargetInterval>& intervals) const {
         const Point middle = midpoint(a, b);
         const double target = tree_.minimum(middle, gradation_, cap, targets_,
@@ -263,10 +263,10 @@ void sort_without_duplicates(std::vector<std::size_t>& indices) {
     indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
 }
 
-/// Adds parts until the lengths of the parts on both sides of each corner differ by no more than max_ratio: one part more
-/// makes those of an edge with many hardly shorter. All corners are judged by one state and then changed together, so that the
-/// result depends neither on where a polygon starts nor on its direction. across: edges_back_to_back(), which have as many parts
-/// as each other.
+/// Adds parts until the lengths of the parts on both sides of each corner differ by no more than max_ratio: one part
+/// more makes those of an edge with many hardly shorter. All corners are judged by one state and then changed together,
+/// so that the result depends neither on where a polygon starts nor on its direction. across: edges_back_to_back(),
+/// which have as many parts as each other.
 void balance_divisions(std::span<const PolygonEdge> edges, std::span<const std::size_t> across, double max_ratio,
                        std::vector<EdgeDivision>& divisions) {
     constexpr double rounding = 1e-9;
@@ -400,8 +400,8 @@ std::vector<EdgeDivision> balanced_divisions(std::span<const PolygonEdge> edges,
     return divisions;
 }
 
-/// Returns the division points of an edge, without those that floating point cannot tell from their neighbours. Those of a
-/// wall's edge are on its curve.
+/// Returns the division points of an edge, without those that floating point cannot tell from their neighbours. Those
+/// of a wall's edge are on its curve.
 std::vector<Point> division_points(const PolygonEdge& edge, const EdgeDivision& division, const PlaceOnWall& place) {
     std::vector<Point> points;
     Point before = edge.a;

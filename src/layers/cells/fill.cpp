@@ -370,8 +370,8 @@ std::vector<char> used_points(const Layer& layer) {
     return used;
 }
 
-/// Returns the triangles as cells. The layer of a triangle is that of its highest point, but 1 at least: in a sharp corner
-/// all its points may be on the wall.
+/// Returns the triangles as cells. The layer of a triangle is that of its highest point, but 1 at least: in a sharp
+/// corner all its points may be on the wall.
 LayerCells cells_of(const Layer& layer, std::vector<Triangle> triangles) {
     LayerCells cells;
     cells.triangle_layer.reserve(triangles.size());

@@ -11,10 +11,12 @@ namespace lamina::layers {
 
 namespace {
 
-/// Sums that differ by less than this share count as equal. In cells as thin as 1e-9 of their coordinates, rounding is no smaller.
+/// Sums that differ by less than this share count as equal. In cells as thin as 1e-9 of their coordinates, rounding is
+/// no smaller.
 constexpr double burden_rounding = 1e-6;
 
-/// Returns what a triangle adds to the sum that cuts are compared by; infinite unless the triangle is counter-clockwise (exact).
+/// Returns what a triangle adds to the sum that cuts are compared by; infinite unless the triangle is counter-clockwise
+/// (exact).
 double burden_of(Point a, Point b, Point c) {
     if (!(core::inline_orient2d(a, b, c) > 0)) return HUGE_VAL;
     const Point ab = b - a, bc = c - b, ca = a - c;

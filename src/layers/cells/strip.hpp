@@ -24,18 +24,19 @@ class StripCutter {
 public:
     explicit StripCutter(std::span<const Point> points) : points_(points) {}
 
-    /// Adds the triangles of the best cut, counter-clockwise, from the first side to the last: the sum of 1 / (1 + cos)^4 of the
-    /// largest angles of all triangles is smallest, which the largest angle of all decides where one is much larger than
-    /// others. Sums that differ by less than a millionth, which is more than rounding, count as equal. Where cuts are equal,
-    /// `first_leads` prefers a large fan from the lower corner of the first side, otherwise from that of the last. Returns
-    /// false, and adds nothing, where every cut has a triangle that is not positive (exact). Precondition: each chain has a
-    /// corner or more, and both together three or more.
+    /// Adds the triangles of the best cut, counter-clockwise, from the first side to the last: the sum of 1 / (1 +
+    /// cos)^4 of the largest angles of all triangles is smallest, which the largest angle of all decides where one is
+    /// much larger than others. Sums that differ by less than a millionth, which is more than rounding, count as equal.
+    /// Where cuts are equal, `first_leads` prefers a large fan from the lower corner of the first side, otherwise from
+    /// that of the last. Returns false, and adds nothing, where every cut has a triangle that is not positive (exact).
+    /// Precondition: each chain has a corner or more, and both together three or more.
     bool cut(std::span<const VertexId> lower, std::span<const VertexId> upper, bool first_leads,
              std::vector<Triangle>& triangles);
 
 private:
-    /// A corner of each chain, joined by an edge: the state of a cut between the first side and the last. Its burdens are the
-    /// least possible sums over the triangles from here, if the next one stands on the upper or the lower chain.
+    /// A corner of each chain, joined by an edge: the state of a cut between the first side and the last. Its burdens
+    /// are the least possible sums over the triangles from here, if the next one stands on the upper or the lower
+    /// chain.
     struct CutState {
         double via_upper = HUGE_VAL, via_lower = HUGE_VAL;
         double burden = HUGE_VAL;  ///< the smaller one

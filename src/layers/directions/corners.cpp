@@ -64,9 +64,9 @@ bool is_above_edges(const Outline& outline, Point p, std::size_t first, std::siz
     return true;
 }
 
-/// Returns whether the tops of the first layer beside a corner are well above the edges on their sides, which they are not
-/// where a side bulges, or where a ray stands on a convex vertex and leans away, between the edge before it and the way to
-/// the other ray:
+/// Returns whether the tops of the first layer beside a corner are well above the edges on their sides, which they are
+/// not where a side bulges, or where a ray stands on a convex vertex and leans away, between the edge before it and the
+/// way to the other ray:
 ///
 ///        a'          |
 ///         `.         |     a': top of the first layer; the edge from a to the corner c hides it
@@ -147,8 +147,8 @@ void leave_out_sharp_corners(double first_height, std::vector<RayVertex>& outlin
 
 namespace {
 
-/// Returns the shift of the one ray of a vertex; none where first heights are right without one, and where the wall hardly
-/// turns. along: first height along the ray; height: above the edges.
+/// Returns the shift of the one ray of a vertex; none where first heights are right without one, and where the wall
+/// hardly turns. along: first height along the ray; height: above the edges.
 Point shift_at_corner(const RayLine& before, const RayLine& ray, const RayLine& after, double along, double height) {
     const WallNeighbours vertices = wall_neighbours(before, ray, after);
     const Point edge_before = ray.origin - vertices.before, edge_after = vertices.after - ray.origin;
@@ -164,9 +164,10 @@ Point shift_at_corner(const RayLine& before, const RayLine& ray, const RayLine& 
     return length(shift) <= most_shift * shorter ? shift : Point{};
 }
 
-/// Returns the largest lean of the one ray of a vertex, in radians, at which it is higher above one of the edges at its origin
-/// than above the other by no more than twice kept_difference of their mean. A ray that leans by t where the wall turns by 2 b is
-/// cos(t + b) / (cos t cos b) = 1 - tan t tan b times that mean above one edge, 1 + tan t tan b times above the other.
+/// Returns the largest lean of the one ray of a vertex, in radians, at which it is higher above one of the edges at its
+/// origin than above the other by no more than twice kept_difference of their mean. A ray that leans by t where the
+/// wall turns by 2 b is cos(t + b) / (cos t cos b) = 1 - tan t tan b times that mean above one edge, 1 + tan t tan b
+/// times above the other.
 double max_unshifted_lean(double turning) {
     const double b = 0.5 * std::abs(turning);
     return core::atan2_reproducible(kept_difference * core::cos_reproducible(b), core::sin_reproducible(b));

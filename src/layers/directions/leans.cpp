@@ -14,7 +14,8 @@ namespace lamina::layers {
 
 namespace {
 
-/// The gradient and the Hessian of half the function at some leans. Leans that are held at a bound have a row of the identity.
+/// The gradient and the Hessian of half the function at some leans. Leans that are held at a bound have a row of the
+/// identity.
 struct Derivatives {
     std::vector<double> gradient, diagonal;
     std::vector<double> beside;    ///< entry k of the Hessian is that of rays k and k + 1

@@ -24,9 +24,10 @@ inline OutlineKind outline_kind(const Element& element) {
 
 /// A row of the table of kinds: all that distinguishes one from the others.
 struct OutlineRules {
-    /// Width that columns should have at the front, over the angle that they may open by, in heights of the front: where
-    /// layers end at isotropy, and where their number is given. Such layers end lower or higher than where cells are as
-    /// high as wide, and rays of points that were given stay near their normals: there the rays must not meet, and no more.
+    /// Width that columns should have at the front, over the angle that they may open by, in heights of the front:
+    /// where layers end at isotropy, and where their number is given. Such layers end lower or higher than where cells
+    /// are as high as wide, and rays of points that were given stay near their normals: there the rays must not meet,
+    /// and no more.
     double wanted_width, wanted_width_of_given_layers;
     /// Widths are measured at this many heights of the front where layers end at isotropy.
     double measured_fronts;

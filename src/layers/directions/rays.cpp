@@ -40,8 +40,8 @@ std::vector<LineAtVertex> sorted_lines(std::span<const LineFoot> feet, Point mid
     return lines;
 }
 
-/// Sets the lines that end at a vertex, and the leans that they ask for. One line in front of both edges has one ray; others
-/// have a fan.
+/// Sets the lines that end at a vertex, and the leans that they ask for. One line in front of both edges has one ray;
+/// others have a fan.
 void set_lines(std::span<const RayVertex> outline, std::size_t i, WallVertex& vertex) {
     const std::size_t n = outline.size();
     const RayVertex &at = outline[i], &before = outline[(i + n - 1) % n], &after = outline[(i + 1) % n];
@@ -93,8 +93,8 @@ struct FanRay {
     double line_room;  ///< RayLine::line_room
 };
 
-/// Returns into how many parts the angles between these rays are divided, so that none exceeds the largest angle; or as many
-/// in all as are asked for.
+/// Returns into how many parts the angles between these rays are divided, so that none exceeds the largest angle; or as
+/// many in all as are asked for.
 std::vector<std::size_t> parts_of_fan(std::span<const FanRay> fan, double max_angle,
                                       std::optional<std::uint32_t> in_all) {
     std::vector<std::size_t> parts;
@@ -138,8 +138,8 @@ std::vector<FanRay> rays_along(std::span<const LineAtVertex> lines) {
     return rays;
 }
 
-/// Returns the rays that the fan of a vertex with lines must have: those along lines, and the first and the last one of a fan
-/// unless a line is there.
+/// Returns the rays that the fan of a vertex with lines must have: those along lines, and the first and the last one of
+/// a fan unless a line is there.
 std::vector<FanRay> rays_at_lines(const WallVertex& vertex) {
     constexpr double same = 0x1p-11;  // radians; leans are rounded to half of it
     std::vector<FanRay> rays = rays_along(vertex.lines);
@@ -182,8 +182,8 @@ struct Refinement {
     double height;  ///< of the layers between the vertices; infinite where it is not known yet
 };
 
-/// Returns into how many parts the curve of an edge must be divided for each to bend by no more than a share of the layers'
-/// height: cells of higher order follow it, and where the border divides their tops, the bend fades out below.
+/// Returns into how many parts the curve of an edge must be divided for each to bend by no more than a share of the
+/// layers' height: cells of higher order follow it, and where the border divides their tops, the bend fades out below.
 std::size_t parts_of_curve(Point from, Point to, const Refinement& refinement) {
     const std::optional<Point> middle = refinement.place ? refinement.place(from, to, 0.5) : std::nullopt;
     if (!middle || refinement.height <= 0) return 1;
@@ -192,9 +192,9 @@ std::size_t parts_of_curve(Point from, Point to, const Refinement& refinement) {
     return std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(std::sqrt(bend) - part_slack)));
 }
 
-/// Adds the rays between two others that differ by more than the largest angle, or whose wall bends, evenly spaced on the
-/// wall. Corners of jagged outlines are so many, and their edges so short, that neighbouring edges would differ by whole
-/// factors (docs/layer.md). Rays are added there only where a column opens widely, none where rays converge.
+/// Adds the rays between two others that differ by more than the largest angle, or whose wall bends, evenly spaced on
+/// the wall. Corners of jagged outlines are so many, and their edges so short, that neighbouring edges would differ by
+/// whole factors (docs/layer.md). Rays are added there only where a column opens widely, none where rays converge.
 void add_refining_rays(const RayLine& first, const RayLine& last, const Refinement& refinement,
                        std::vector<RayLine>& rays) {
     const Point from = first.origin, to = last.origin, normal = -perpendicular(unit(to - from));

@@ -1,5 +1,5 @@
-// Heights of layers on rays: what is asked for, by the growth law, up to the thickness or up to isotropy, and columns that
-// end at the front.
+// Heights of layers on rays: what is asked for, by the growth law, up to the thickness or up to isotropy, and columns
+// that end at the front.
 #include "layers/heights/heights.hpp"
 
 #include <algorithm>
@@ -137,8 +137,8 @@ bool has_openings(const RaySet& set) {
     return std::any_of(set.lines.begin(), set.lines.end(), [](const RayLine& ray) { return ray.opening != 1; });
 }
 
-/// The heights that the growth law gives above a wall, one table for all rays of an element or one for each. Those of a ray are
-/// multiplied by its opening.
+/// The heights that the growth law gives above a wall, one table for all rays of an element or one for each. Those of a
+/// ray are multiplied by its opening.
 class LawHeights {
 public:
     LawHeights(const RaySet& set, const LayerGrowth& growth) {
@@ -302,8 +302,8 @@ private:
 
 }  // namespace
 
-// The factor from heights above the wall's edges beside a ray to heights along it. Rays out of a corner would otherwise make
-// the cells beside it too low:
+// The factor from heights above the wall's edges beside a ray to heights along it. Rays out of a corner would otherwise
+// make the cells beside it too low:
 //
 //       |   /           h / cos(45) along the ray is h above both walls
 //     h |..o

@@ -75,8 +75,8 @@ void raise_to(std::vector<double> needed, double slope, const RaySet& set, const
     for (std::size_t i = 0; i < front.size(); ++i) front[i] = std::max(front[i], -needed[i]);
 }
 
-/// Returns the heights at which the front's edges over fans are nearly as long as those beside, and 0 elsewhere. A front
-/// whose edges were shorter over the fan would ask for a finer wall there, which would lower it further.
+/// Returns the heights at which the front's edges over fans are nearly as long as those beside, and 0 elsewhere. A
+/// front whose edges were shorter over the fan would ask for a finer wall there, which would lower it further.
 std::vector<double> heights_over_fans(const RayDistances& rays, std::size_t count) {
     std::vector<double> needed(count);
     const auto raise = [&](std::size_t outside, std::size_t end, std::size_t inside) {

@@ -1,5 +1,5 @@
-// Numbers of layers by a dynamic programme. Where the number of layers changes, the rows above are shifted by up to a layer
-// from one ray to the next, and the cells are sheared, the more the narrower the column is:
+// Numbers of layers by a dynamic programme. Where the number of layers changes, the rows above are shifted by up to a
+// layer from one ray to the next, and the cells are sheared, the more the narrower the column is:
 //
 //     |   |              |   |
 //     |   |__            |___|         Left: five layers beside four that end at the same height. Right: four, a little
@@ -8,10 +8,10 @@
 //     |  /|  |           |   |
 //     |_/_|__|           |___|
 //
-// Each ray has a range of numbers with which a stretch can keep the front where it is. Among all sequences of numbers in
-// these ranges, the cheapest is taken. A change costs the fourth power of the tangent by which the rows that it shifts
-// are off a right angle with the rays. So a change costs little where columns are wide, and where rays lean, it costs
-// less in one direction than in the other (docs/layer.md):
+// Each ray has a range of numbers with which a stretch can keep the front where it is. Among all sequences of numbers
+// in these ranges, the cheapest is taken. A change costs the fourth power of the tangent by which the rows that it
+// shifts are off a right angle with the rays. So a change costs little where columns are wide, and where rays lean, it
+// costs less in one direction than in the other (docs/layer.md):
 //
 //         / / / /             / / / /
 //        /_/ / /             /_/_/ /      rays that lean to the right; rows that fall in this direction, and that rise
@@ -63,8 +63,8 @@ struct RayChoices {
     ColumnRow row;  ///< of the front, from the ray before to this one
 };
 
-/// Returns what it costs that the number of layers changes from `before` to `n` on the column behind `ray_before`: the topmost
-/// row that both rays share is one layer below the front on one of them.
+/// Returns what it costs that the number of layers changes from `before` to `n` on the column behind `ray_before`: the
+/// topmost row that both rays share is one layer below the front on one of them.
 double cost_of_change(const RayChoices& ray_before, const RayChoices& ray, std::uint32_t before, std::uint32_t n) {
     ColumnRow row = ray.row;
     row.rise += n > before ? -ray.end->last_spacing : ray_before.end->last_spacing;
@@ -105,8 +105,8 @@ private:
     const LayerRange& range(std::size_t k) const { return rays_[k].end->layers; }
     Way& way(std::size_t k, std::uint32_t n) { return ways_[k][n - range(k).least]; }
 
-    /// Finds the ways from this number of the first ray, and returns the cost of the one back to it. Numbers to which none
-    /// leads cost infinitely much.
+    /// Finds the ways from this number of the first ray, and returns the cost of the one back to it. Numbers to which
+    /// none leads cost infinitely much.
     double cost_from(std::uint32_t held) {
         for (Way& first : ways_[0]) first = {HUGE_VAL, held};
         way(0, held).cost = 0;
@@ -115,8 +115,8 @@ private:
         return way(rays_.size() - 1, held).cost;
     }
 
-    /// Returns the cheapest way to number n of ray k: from the same number, the one below or the one above, or those nearest
-    /// to them.
+    /// Returns the cheapest way to number n of ray k: from the same number, the one below or the one above, or those
+    /// nearest to them.
     Way cheapest_way(std::size_t k, std::uint32_t n) {
         const double off = double(n) - double(rays_[k].end->wanted);
         const double own = cost_of_distance * off * off + cost_of_layer * n;

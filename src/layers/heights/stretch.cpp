@@ -8,9 +8,9 @@
 //         fixed heights                   fitted heights
 //
 // A growth that differs by some per mille, the less the more layers there are, makes a layer end at the limit. It
-// differs in the upper half of the layers alone. Cells near the wall are a thousand times as long as high, so where their
-// ends differ in height by one more per mille from row to row, the middles of neighbouring rows shift against each other
-// by more than the rows are high, and faces are far from orthogonal:
+// differs in the upper half of the layers alone. Cells near the wall are a thousand times as long as high, so where
+// their ends differ in height by one more per mille from row to row, the middles of neighbouring rows shift against
+// each other by more than the rows are high, and faces are far from orthogonal:
 //
 //      _________________              _________________
 //     |_________________|            |_________________|        Left: rows whose ends differ by more from row to row.
@@ -53,8 +53,9 @@ StretchedHeight stretched_height(std::span<const double> heights, std::uint32_t 
     return top;
 }
 
-/// Returns the factor, from 1 / max_stretch to max_stretch, with which layer n ends next to the height, by Newton's method from a
-/// factor that is too large: the height is a polynomial of the factor with positive coefficients, so no step goes too far.
+/// Returns the factor, from 1 / max_stretch to max_stretch, with which layer n ends next to the height, by Newton's
+/// method from a factor that is too large: the height is a polynomial of the factor with positive coefficients, so no
+/// step goes too far.
 double factor_to_height(double height, std::span<const double> heights, std::uint32_t n) {
     if (stretched_height(heights, n, 1 / max_stretch).height >= height) return 1 / max_stretch;
     double factor = max_stretch;
@@ -126,9 +127,9 @@ double stretched_last_spacing(double height, std::span<const double> heights, st
 //      |___|        |   |
 //      |   |        |___|
 //
-// The stretch of the column gets a second number, so that its end and its last spacing are both met. Where columns are far
-// wider than their last layers are high, these become higher. Source: M. Vinokur, J. Comput. Phys. 50 (1983): stretching
-// functions with prescribed spacings at both ends. docs/layer.md.
+// The stretch of the column gets a second number, so that its end and its last spacing are both met. Where columns are
+// far wider than their last layers are high, these become higher. Source: M. Vinokur, J. Comput. Phys. 50 (1983):
+// stretching functions with prescribed spacings at both ends. docs/layer.md.
 
 namespace {
 
@@ -137,8 +138,8 @@ std::uint32_t fixed_layers(const HeightColumn& column, std::uint32_t n) {
     return column.stretch.above > 0 ? column.stretch.above : last_unstretched(n);
 }
 
-/// Returns the least ratio of a last layer of this height, as a share of the part that changes: with a smaller one the layer
-/// below would be more than three times as high.
+/// Returns the least ratio of a last layer of this height, as a share of the part that changes: with a smaller one the
+/// layer below would be more than three times as high.
 double least_ratio(double last) { return last * (2 - last); }
 
 /// The ratio to which the last spacing of a ray should be changed, and to which it may be: logarithms.
@@ -149,8 +150,8 @@ struct LogRatios {
     double lowest = 0, highest = 0;  ///< what the column has room for, whatever its neighbours want
 };
 
-/// Returns the height along a ray up to which a layer with this edge at its end has the area of a square on the edge. It
-/// is the length of the edge, and more where the ray leans:
+/// Returns the height along a ray up to which a layer with this edge at its end has the area of a square on the edge.
+/// It is the length of the edge, and more where the ray leans:
 ///
 ///        ._______.
 ///       /       /      edge * edge = height * (distance of the edge's other end from the ray)
@@ -195,8 +196,8 @@ std::vector<double> end_ratios(const LayeredRays& rays, bool quads) {
             return part > 0 ? ratios[from] + distance(rays.tip(from), rays.tip(to)) / part : HUGE_VAL;
         });
     };
-    // Ratios first rise towards those of the neighbours, then fall: high last layers may not make cells of narrow columns
-    // beside too high.
+    // Ratios first rise towards those of the neighbours, then fall: high last layers may not make cells of narrow
+    // columns beside too high.
     for (std::size_t i = 0; i < ratios.size(); ++i) ratios[i] = -std::min(bounds[i].wanted, bounds[i].highest);
     lead_over();
     for (std::size_t i = 0; i < ratios.size(); ++i)
@@ -239,9 +240,9 @@ bool has_crossed_cell(const LayeredRays& rays, std::size_t i, std::size_t j) {
     return !(core::inline_orient2d(rays.point(i, common), top, rays.point(j, common)) > 0);
 }
 
-/// Leaves the columns on both sides of crossed cells as they were: rows rise most where a column is narrower than at the
-/// front. Columns as they were have no such cells. Returns whether there were any. It is a safety net for steep fronts, which
-/// EndSpacings.CrossesNoCells holds.
+/// Leaves the columns on both sides of crossed cells as they were: rows rise most where a column is narrower than at
+/// the front. Columns as they were have no such cells. Returns whether there were any. It is a safety net for steep
+/// fronts, which EndSpacings.CrossesNoCells holds.
 bool leave_crossed_columns(const LayeredRays& rays, std::vector<double>& ratios) {
     const std::vector<std::size_t> next = rays.set.following();
     std::vector<std::size_t> crossed;
@@ -253,9 +254,9 @@ bool leave_crossed_columns(const LayeredRays& rays, std::vector<double>& ratios)
 
 }  // namespace
 
-// With the last ratio e^c given, the ratio of a layer at the share x of the stretched part is
-// exp(a (x - x^2) + c x^2): a product of factors that change by one more factor from layer to layer. The end of the column
-// rises with a, and ever faster, so that Newton's method ends.
+// With the last ratio e^c given, the ratio of a layer at the share x of the stretched part is exp(a (x - x^2) + c x^2):
+// a product of factors that change by one more factor from layer to layer. The end of the column rises with a, and ever
+// faster, so that Newton's method ends.
 Stretch stretch_to_last_spacing(double ratio, std::span<const double> heights, std::uint32_t above) {
     constexpr int max_steps = 40;
     const auto layers = static_cast<double>(heights.size() - 1 - above);

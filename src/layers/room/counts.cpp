@@ -261,8 +261,8 @@ std::vector<std::uint32_t> layer_counts(const RaySet& set, const LayerHeights& h
     return CountLowering(set, heights, std::move(counts)).run();
 }
 
-// Columns that are lowered once cells have been seen: where the layer leaves no room for good triangles beyond it, and below
-// cells with large angles.
+// Columns that are lowered once cells have been seen: where the layer leaves no room for good triangles beyond it, and
+// below cells with large angles.
 
 std::vector<std::size_t> shorten_rays(std::span<const Circle> places, Rays& rays) {
     constexpr double kept_share = 0.5;  // of the height
@@ -325,8 +325,9 @@ void add_obtuse(const Layer& layer, std::span<const Cell> cells, std::span<const
     }
 }
 
-/// Returns, for each column, whether one of its rays is so near to the walls on both sides that no cell of the column can do
-/// without such an angle: it is the one ray of a concave corner whose sides meet at twice what is left to 180 degrees, or less.
+/// Returns, for each column, whether one of its rays is so near to the walls on both sides that no cell of the column
+/// can do without such an angle: it is the one ray of a concave corner whose sides meet at twice what is left to 180
+/// degrees, or less.
 std::vector<char> columns_of_sharp_corners(const Layer& layer, double cosine) {
     std::vector<char> result;
     for (const std::vector<Ray>& rays : layer.rays) {

@@ -15,8 +15,8 @@ namespace lamina::layers {
 /// Source: thesis 3.2, generalised to all rays against all rays and walls.
 std::vector<double> height_limits(const RaySet& set, std::span<const double> asked);
 
-/// Returns the limit of each ray by walls alone, infinite where it meets none up to the asked height over wall_fraction. The
-/// search takes time in proportion to the asked heights over the spacing of the walls.
+/// Returns the limit of each ray by walls alone, infinite where it meets none up to the asked height over
+/// wall_fraction. The search takes time in proportion to the asked heights over the spacing of the walls.
 std::vector<double> wall_limits(const RaySet& set, std::span<const double> asked);
 
 }  // namespace lamina::layers

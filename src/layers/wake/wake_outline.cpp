@@ -192,8 +192,8 @@ std::vector<Point> stretch(std::span<const Point> outline, const Base& base) {
     return points;
 }
 
-/// Returns whether a point lies on the trailing edge or the base before a wake, but for rounding: at a vertex of it, or where a
-/// ray was added between two.
+/// Returns whether a point lies on the trailing edge or the base before a wake, but for rounding: at a vertex of it, or
+/// where a ray was added between two.
 bool lies_on_edge(const DividedWake& wake, Point p) {
     constexpr double tolerance = 1e-9;
     for (std::size_t k = 0; k < wake.edge.size(); ++k) {
@@ -301,8 +301,8 @@ void keep_wakes_clear(const RaySet& walls, std::span<const double> needed, std::
             if (from >= ends[wake.line]) return;
             tree.overlaps(core::bounding_box(a, b), [&](std::size_t i) {
                 const Obstacle& other = obstacles[i];
-                // The rays of the trailing edge, and the wall beside it, make way for the wake. Of two wakes that cross,
-                // the one that has come farther ends.
+                // The rays of the trailing edge, and the wall beside it, make way for the wake. Of two wakes that
+                // cross, the one that has come farther ends.
                 if (other.wake ? other.wake->line == wake.line || other.from > from ||
                                      (other.from == from && other.wake->line < wake.line)
                                : is_own(other.a) || is_own(other.b))
@@ -336,8 +336,8 @@ bool shorten_bare_wakes(const RaySet& set, std::span<const std::uint32_t> counts
 }
 
 // The space between a base and the point where the layers of both sides meet behind it is cut into strips between
-// chains. The first chain is the base, the last one a point. Chains end at stations, vertices of the wake, but for those
-// of the layers on the base, which end at its corners:
+// chains. The first chain is the base, the last one a point. Chains end at stations, vertices of the wake, but for
+// those of the layers on the base, which end at its corners:
 //
 //    wall ___________u_
 //                    |\\'--s---.__

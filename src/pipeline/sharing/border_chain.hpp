@@ -20,8 +20,9 @@ struct BorderChain {
 /// Lines that dangle in the subdomain, whose edges run both ways, cancel out.
 BorderChain border_chain(const decoupling::LineBorder& border, const decoupling::Lines& lines);
 
-/// Returns what lies behind the edges of the subdomain's border_chain(), from the border edges that the check of the piece has found.
-/// Adds a defect where these are other edges: the triangles of the piece do not add up to its border then.
+/// Returns what lies behind the edges of the subdomain's border_chain(), from the border edges that the check of the
+/// piece has found. Adds a defect where these are other edges: the triangles of the piece do not add up to its border
+/// then.
 std::vector<Point> apexes_of(const decoupling::Subdomain& subdomain, mesh::PieceFindings& findings);
 
 }  // namespace lamina::pipeline

@@ -75,9 +75,9 @@ bool is_good_estimate(double estimated, std::size_t made);
 /// Adds the facts about the next piece to the summary and to the check.
 void add_piece(PieceFacts facts, PiecesSummary& summary, mesh::PiecewiseCheck& check);
 
-/// Refines all subdomains in parallel in this order. Each piece is checked while it lies in the cache of the thread that
-/// has made it, its findings are added to the check in the order of the subdomains, and the piece is handed to the keeper.
-/// The result depends neither on this order nor on the number of threads.
+/// Refines all subdomains in parallel in this order. Each piece is checked while it lies in the cache of the thread
+/// that has made it, its findings are added to the check in the order of the subdomains, and the piece is handed to the
+/// keeper. The result depends neither on this order nor on the number of threads.
 PiecesSummary refine_and_check(const decoupling::Decoupling& decoupling, std::span<const std::size_t> order,
                                const PieceRules& rules, core::BusyTimes& times, mesh::PiecewiseCheck& check,
                                const PieceKeeper& keeper);

@@ -118,8 +118,8 @@ MadePieces SharingDriver::make(const PiecesWork& work) {
     MadePieces made;
     HeldPieces held;
     mesh::HashOfParts hash;
-    // All that rank 0 can do before the pieces are made keeps the others from waiting for it once they are. It makes fewer
-    // pieces meanwhile.
+    // All that rank 0 can do before the pieces are made keeps the others from waiting for it once they are. It makes
+    // fewer pieces meanwhile.
     const auto fill_layer = [&] {
         shared_->place(shared_->cut.far_field);
         shared_->outer_places = sum_of_places(shared_->cut.far_field, shared_->points());

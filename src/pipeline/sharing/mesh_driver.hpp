@@ -1,5 +1,5 @@
-// Three ways to make the pieces of a mesh: keep them, stream them to a sink, or share them among processes. The stages of
-// the pipeline call a driver, and do not ask which.
+// Three ways to make the pieces of a mesh: keep them, stream them to a sink, or share them among processes. The stages
+// of the pipeline call a driver, and do not ask which.
 #pragma once
 
 #include <cstddef>
@@ -78,8 +78,8 @@ public:
     virtual WorkCost cost() const = 0;
     /// Does what one process does for all: estimates the run, completes the check, finds warnings.
     virtual void lead(const std::function<void()>& work) { work(); }
-    /// Cuts the region beyond the layer into subdomains. `expected_triangles` is what the one that leads expects in all of
-    /// them together. The result is valid until the next call.
+    /// Cuts the region beyond the layer into subdomains. `expected_triangles` is what the one that leads expects in all
+    /// of them together. The result is valid until the next call.
     virtual DecoupledBorders decouple(const decoupling::OuterRegion& region, const RefineOptions& refine,
                                       double expected_triangles) = 0;
     /// Gives the vertices of the far field their places among those of decouple(), if they have none yet.

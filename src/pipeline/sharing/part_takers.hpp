@@ -22,9 +22,9 @@ public:
     PartTaker& operator=(const PartTaker&) = delete;
     virtual ~PartTaker() = default;
 
-    /// Does what can be done for a part before those before it are taken, and returns the rest. May be called on several
-    /// threads at once, but what it returns is called by one at a time. `owner` holds the arrays of a part that a
-    /// subdomain has made; those of other parts outlive this object.
+    /// Does what can be done for a part before those before it are taken, and returns the rest. May be called on
+    /// several threads at once, but what it returns is called by one at a time. `owner` holds the arrays of a part that
+    /// a subdomain has made; those of other parts outlive this object.
     virtual Append prepare(const MeshPart& part, std::shared_ptr<const Refinement> owner) = 0;
 
     /// Takes the next part at once.

@@ -17,9 +17,9 @@ struct NumberedPieces {
     MeshCounts counts;
 };
 
-/// Collective: numbers so many pieces in their order, behind the vertices and triangles of `before`, which is that of rank 0.
-/// Each process adds up the sizes of successive pieces, and rank 0 those of the processes. Throws MeshError unless each
-/// piece was made once.
+/// Collective: numbers so many pieces in their order, behind the vertices and triangles of `before`, which is that of
+/// rank 0. Each process adds up the sizes of successive pieces, and rank 0 those of the processes. Throws MeshError
+/// unless each piece was made once.
 NumberedPieces number_pieces(const HeldPieces& held, std::size_t pieces, const MeshCounts& before,
                              core::ConnectedRanks& ranks);
 

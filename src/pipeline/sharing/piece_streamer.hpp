@@ -25,8 +25,8 @@ public:
     PieceStreamer(const decoupling::Decoupling& decoupling, PartTaker& taker, bool with_hash);
 
     /// Returns the subdomains in the order in which threads should make them: that of their numbers, so that few pieces
-    /// wait for others. But the last ones come in descending order of their size, so that no thread is left with a large
-    /// one at the end.
+    /// wait for others. But the last ones come in descending order of their size, so that no thread is left with a
+    /// large one at the end.
     std::vector<std::size_t> order() const;
     /// Returns whether so many pieces may wait that all can be made before start().
     bool holds_all() const { return decoupling_.subdomains.size() <= window_; }

@@ -13,10 +13,10 @@
 
 namespace lamina::pipeline {
 
-/// Says which process matches which edges and counts which vertices. A line between trapezoids belongs to the process that
-/// has divided it, any other line to the one that has searched the first piece beside it: these hold the pieces, unless
-/// another process was idle. The layer belongs to rank 0, and a vertex where lines meet to the process of the first line
-/// that begins there.
+/// Says which process matches which edges and counts which vertices. A line between trapezoids belongs to the process
+/// that has divided it, any other line to the one that has searched the first piece beside it: these hold the pieces,
+/// unless another process was idle. The layer belongs to rank 0, and a vertex where lines meet to the process of the
+/// first line that begins there.
 class SeamOwners {
 public:
     /// `layer_vertices` is the number of vertices that no line of the decoupling has added; `self` is the process whose
@@ -29,8 +29,8 @@ public:
         return lines_.is_in_row(line) ? owner_in_rows(line) : of_other_line_[other_line(line)];
     }
     unsigned owner(const decoupling::LineVertex& v) const;
-    /// Returns the number of the vertices that belong to this process, and the place among them of one that does, beyond
-    /// the layer. Those that a line has added have successive places.
+    /// Returns the number of the vertices that belong to this process, and the place among them of one that does,
+    /// beyond the layer. Those that a line has added have successive places.
     std::size_t own_vertices() const {
         return own_.empty() ? 0 : own_.back().place + (own_.back().end - own_.back().begin);
     }

@@ -39,8 +39,8 @@ struct SharedDecoupling {
     std::size_t pieces() const { return cut.borders.size(); }
     /// Returns the number of vertices that no line of the decoupling has added.
     std::size_t layer_vertices() const { return cut.lines.vertices() - cut.separator_vertices; }
-    /// Returns an array of the vertices of the decoupling by their ids. Only those of the layer, of subdomains that were
-    /// made and of lines that were divided have their places in it.
+    /// Returns an array of the vertices of the decoupling by their ids. Only those of the layer, of subdomains that
+    /// were made and of lines that were divided have their places in it.
     std::span<const Point> points() const { return cut.lines.gathered(); }
     /// Returns the border_chain() of a piece.
     BorderChain chain(std::size_t piece) const { return border_chain(cut.border(piece), cut.lines); }
@@ -92,9 +92,9 @@ private:
     HeldPieces held_;
 };
 
-/// Collective: sets the counter for pieces that all share to 0, cuts the region and deals its pieces. The processes divide
-/// the work among themselves, and make pieces while they would wait for each other. They call `before_pieces` once they
-/// have waited for each other, and before they make any.
+/// Collective: sets the counter for pieces that all share to 0, cuts the region and deals its pieces. The processes
+/// divide the work among themselves, and make pieces while they would wait for each other. They call `before_pieces`
+/// once they have waited for each other, and before they make any.
 std::unique_ptr<SharedDecoupling> cut_and_deal(const decoupling::OuterRegion& region, const RefineOptions& refine,
                                                PieceMaker& maker, core::ConnectedRanks& ranks,
                                                const std::function<void()>& before_pieces);

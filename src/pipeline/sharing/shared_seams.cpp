@@ -271,7 +271,8 @@ void SharedSeams::ask(double even_ratio, mesh::PiecewiseCheck* check) {
     const auto add = [&](std::span<const Wanted> wanted, bool along_layer) {
         for (const auto [edge, apex] : wanted) {
             const Source& source = along_layer ? sources_along_layer_[edge] : sources_[edge];
-            // Rank 0 has the layer. Beyond it one side tells where the ends of the edge are, unless a piece here has it.
+            // Rank 0 has the layer. Beyond it one side tells where the ends of the edge are, unless a piece here has
+            // it.
             const bool ends = apex && !along_layer && seams_.edges()[edge].a < seams_.edges()[edge].b &&
                               !has_source_here(seams_.pairs().twin[edge]);
             asked[source.rank].push_back({source.piece, source.edge, apex, ends, along_layer, edge});
