@@ -4,8 +4,8 @@
 //  1. Layers and outer flow agree where CoupledFlow::converged; where they do not, the flow is that of solve_flow().
 //  2. The same input gives the same bits on any number of threads.
 // Limits:
-//  1. Incompressible flow of at most five elements outside of rows of blades. Behind stall, wakes are too narrow, and lift is too large. Layers do
-//     not merge in slots.
+//  1. Incompressible flow of at most five elements outside of rows of blades. Behind stall, wakes are too narrow, and
+//     lift is too large. Layers do not merge in slots.
 //  2. One angle takes 20 ms for one element, 0.2 to 0.5 s for two and more, and several times as long where it is reached
 //     in steps from another angle, or not found.
 // Example:
@@ -48,7 +48,9 @@ struct TransitionPlaces {
 
 /// The flow with boundary layers that displace it.
 struct CoupledFlow {
-    Flow flow;  ///< speeds, pressures and layers at the nodes of the panels; Flow::panels are those of potential flow
+    /// Speeds, pressures and layers at the nodes of the panels; the lift of pressures. Flow::panels are of potential
+    /// flow.
+    Flow flow;
     FlowForces forces;                            ///< drag after Squire and Young at the ends of the wakes
     std::vector<TransitionPlaces> transitions{};  ///< per element, where layers and flow agree
     bool converged = false;                       ///< whether they agree

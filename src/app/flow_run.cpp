@@ -58,6 +58,8 @@ FoundFlow find_flow(Geometry geometry, const CaseOptions& options, const Transit
 
 std::vector<FoundFlow> find_flows(Geometry geometry, const CaseOptions& options,
                                   std::span<const FlowConditions> conditions, const TransitionOptions& transition) {
+    if (options.far_field.symmetry)
+        throw OptionError("symmetry", "is for meshes: the flow takes whole bodies, and ground as a wall");
     geometry = in_row(std::move(geometry), options);
     const ReferenceConditions reference = reference_conditions(options.conditions, geometry);
     const FlowWalls walls = flow_walls(geometry, options.conditions, options.far_field);

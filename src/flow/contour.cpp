@@ -8,7 +8,9 @@
 #include "core/angles.hpp"
 #include "core/bounding_box.hpp"
 #include "core/rounding.hpp"
+#include "core/segments.hpp"
 #include "flow/coves.hpp"
+#include "geometry/inside.hpp"
 #include "geometry/sheets.hpp"
 #include "geometry/trailing_edge.hpp"
 #include "surface/clearance.hpp"
@@ -136,12 +138,41 @@ OpenOutline cut_open(const Element& element, double extent) {
     return outline;
 }
 
-void fair_both_coves(OpenOutline& outline, double extent) {
-    for (int side = 0; side < 2; ++side) {
-        fair_cove(outline.points, outline.is_corner, extent);
-        std::reverse(outline.points.begin(), outline.points.end());
-        std::reverse(outline.is_corner.begin(), outline.is_corner.end());
+/// Returns the distance of a point from the other elements; infinity where there are none.
+double distance_to_others(Point p, std::size_t own, const Geometry& geometry) {
+    double least = HUGE_VAL;
+    for (std::size_t e = 0; e < geometry.elements.size(); ++e) {
+        const std::vector<Point>& points = geometry.elements[e].points;
+        for (std::size_t i = 0; e != own && i < points.size(); ++i)
+            least = std::min(least, core::distance_to_segment(p, points[i], points[(i + 1) % points.size()]));
     }
+    return least;
+}
+
+/// Returns whether an outline and one of the other elements have a point of each other inside.
+bool overlaps_others(std::span<const Point> outline, std::size_t own, const Geometry& geometry) {
+    const auto is_in = [](std::span<const Point> points, std::span<const Point> around) {
+        return std::any_of(points.begin(), points.end(), [&](Point p) { return geometry::contains(around, p); });
+    };
+    for (std::size_t e = 0; e < geometry.elements.size(); ++e)
+        if (const std::vector<Point>& points = geometry.elements[e].points;
+            e != own && (is_in(points, outline) || is_in(outline, points)))
+            return true;
+    return false;
+}
+
+/// Fairs the coves of both sides (fair_cove()), unless the curves would run into other elements, as with flaps that are
+/// drawn in.
+void fair_both_coves(OpenOutline& outline, std::size_t own, const Geometry& geometry, double extent) {
+    const double to_next = distance_to_others(outline.points.front(), own, geometry);
+    OpenOutline faired = outline;
+    for (int side = 0; side < 2; ++side) {
+        fair_cove(faired.points, faired.is_corner, extent, to_next);
+        std::reverse(faired.points.begin(), faired.points.end());
+        std::reverse(faired.is_corner.begin(), faired.is_corner.end());
+    }
+    if (faired.points == outline.points || overlaps_others(faired.points, own, geometry)) return;
+    outline = std::move(faired);
 }
 
 /// A short part of the curve through an outline.
@@ -306,7 +337,7 @@ std::vector<Contour> make_contours(const Geometry& given, const ContourOptions& 
         const Element& element = geometry.elements[e];
         const double extent = core::longer_side(core::bounding_box(element.points));
         OpenOutline outline = cut_open(element, extent);
-        if (options.fair_coves) fair_both_coves(outline, extent);
+        if (options.fair_coves) fair_both_coves(outline, e, geometry, extent);
         OutlineCurve curve = make_curve(outline, extent);
         select_corners(curve);
         const std::vector<double> spacing = panel_spacing(curve, e, extent, walls, geometry.elements.size() == 1);

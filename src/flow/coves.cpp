@@ -28,16 +28,16 @@ struct Side {
     double sign;  ///< 1 where its outer side is on the right
 
     std::size_t end() const { return points.size() - 1; }
-    /// Returns the point at a distance along the side from one of its points, on or back; an end of the side where it
-    /// is shorter.
+    /// Returns the point at a distance along the outline from one of its points, on or back; its end where it is
+    /// shorter.
     Point at_distance(std::size_t from, double length, bool on) const {
-        for (std::size_t i = from; i != (on ? end() : nose); on ? ++i : --i) {
+        for (std::size_t i = from; i != (on ? end() : 0); on ? ++i : --i) {
             const std::size_t next = on ? i + 1 : i - 1;
             const double edge = distance(points[i], points[next]);
             if (edge >= length) return points[i] + length / edge * (points[next] - points[i]);
             length -= edge;
         }
-        return points[on ? end() : nose];
+        return points[on ? end() : 0];
     }
 };
 
@@ -72,12 +72,14 @@ std::optional<double> depth_of_cove(const Side& side, std::size_t corner) {
     return depth;
 }
 
-/// Returns where the wall turns away from the flow most of all places behind which there is a cove.
-std::optional<std::size_t> corner_of_cove(const Side& side, double extent) {
+/// Returns the corner at which the wall turns away from the flow most of all behind which there is a cove.
+std::optional<std::size_t> corner_of_cove(const Side& side, const std::vector<bool>& is_corner, double extent,
+                                          double to_next) {
     const std::vector<Point>& p = side.points;
     std::optional<std::size_t> corner;
     double sharpest = core::radians(min_turning_deg);
-    for (std::size_t i = side.nose + 1; i < side.end(); ++i) {
+    for (std::size_t i = side.nose; i < side.end(); ++i) {
+        if (!is_corner[i] || length_of_cove(side, i) <= to_next) continue;
         const Point before = side.at_distance(i, least_depth * extent, false),
                     behind = side.at_distance(i, least_depth * extent, true);
         const double turning = side.sign * core::angle_between(p[i] - before, behind - p[i]);
@@ -90,9 +92,9 @@ std::optional<std::size_t> corner_of_cove(const Side& side, double extent) {
 
 }  // namespace
 
-void fair_cove(std::vector<Point>& points, std::vector<bool>& is_corner, double extent) {
+void fair_cove(std::vector<Point>& points, std::vector<bool>& is_corner, double extent, double to_next) {
     const Side side = last_side(points);
-    const std::optional<std::size_t> corner = corner_of_cove(side, extent);
+    const std::optional<std::size_t> corner = corner_of_cove(side, is_corner, extent, to_next);
     if (!corner) return;
     const double length = length_of_cove(side, *corner), step = least_depth * extent;
     const Point c = points[*corner], r = side.at_distance(*corner, length, true);
@@ -106,10 +108,11 @@ void fair_cove(std::vector<Point>& points, std::vector<bool>& is_corner, double 
     }
     std::vector<bool> corners(is_corner.begin(), is_corner.begin() + static_cast<std::ptrdiff_t>(*corner) + 1);
     corners.resize(faired.size());
+    constexpr double same = 1e-6;  // a point that is as near to r is r
     double s = 0;
     for (std::size_t i = *corner + 1; i < points.size(); ++i) {
         s += distance(points[i - 1], points[i]);
-        if (s <= length) continue;
+        if (s <= length + same * extent) continue;
         faired.push_back(points[i]);
         corners.push_back(is_corner[i]);
     }

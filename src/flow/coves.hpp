@@ -16,8 +16,10 @@ namespace lamina::flow {
 ///          `---c- - - . . _  _______.r`                    the wall; r ends the cove but for a twentieth
 ///               \___________/
 ///
-/// `is_corner` has a mark per point. The outline is open, and `extent` is its length. Source: M. Drela, Newton solution
-/// of coupled viscous/inviscid multielement airfoil flows, AIAA paper 90-1470 (1990), which fairs coves by hand.
-void fair_cove(std::vector<Point>& points, std::vector<bool>& is_corner, double extent);
+/// The flow through the slot behind a cove brings the layers back: `to_next`, the distance of the trailing edge from
+/// the next element, is less than the cove is long. `is_corner` has a mark per point; only corners begin coves.
+/// `extent` is the longer side of the box round the open outline. Source: M. Drela, Newton solution of coupled
+/// viscous/inviscid multielement airfoil flows, AIAA paper 90-1470 (1990), which fairs coves by hand.
+void fair_cove(std::vector<Point>& points, std::vector<bool>& is_corner, double extent, double to_next);
 
 }  // namespace lamina::flow

@@ -44,6 +44,7 @@ inline std::vector<Image> copies_in_row(double pitch) {
 
 /// Returns the images in these walls, or the copies in a row. Those in two walls have images themselves, without end,
 /// of alternating circulation: their sum ends with half of a term, so that it is in the middle of its last two values.
+/// Images of sources do not alternate: what wakes displace raises the speed in a tunnel by some 7 % too little.
 inline std::vector<Image> images_in(const FlowWalls& walls) {
     if (walls.pitch) return copies_in_row(*walls.pitch);
     if (!walls.below && !walls.above) return {};

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -66,6 +67,25 @@ struct Ray {
     /// Returns the vertex at the end of the ray.
     VertexId tip() const { return vertex(layers); }
 };
+
+/// On which side of a ray there is none of the layer.
+enum class BareSide { before, after };
+
+/// Returns how the border runs along a ray with one layer, where one beside it has the same origin and no layer: after
+/// it or before it. The border may divide the edge that it has in common with the ray.
+///
+///         tip _____ border              the ray before or after this one, at the
+///        ____/| ray                     same vertex of the wall, has no layer
+///     ______/_|______ wall
+///
+inline std::optional<BareSide> bare_side_of(std::span<const Ray> rays, std::size_t i) {
+    const std::size_t n = rays.size();
+    const auto is_bare = [&](std::size_t k) { return rays[k].layers == 0 && rays[k].origin == rays[i].origin; };
+    if (rays[i].layers != 1) return {};
+    if (is_bare((i + n - 1) % n)) return BareSide::before;
+    if (is_bare((i + 1) % n)) return BareSide::after;
+    return {};
+}
 
 /// The edges of walls and outer borders. An edge that belongs to a wall and to an outer border has no layer beside it.
 struct LayerEdges {

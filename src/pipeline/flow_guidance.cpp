@@ -234,6 +234,8 @@ void leave_out_images(const Geometry& geometry, FlowGuidance& guidance, layers::
     Flow& flow = *guidance.flow;
     if (flow.elements.size() == elements) return;
     flow.elements.resize(elements);
+    flow.lift = 0;
+    for (const ElementFlow& element : flow.elements) flow.lift += element.lift;
     if (guidance.compressible) guidance.compressible->elements.resize(elements);
     std::erase_if(flow.warnings, [](const Warning& w) { return w.code == WarningCode::flow_separates; });
     if (std::optional<Warning> wide = flow::find_wide_wake(flow)) flow.warnings.push_back(std::move(*wide));

@@ -121,7 +121,7 @@ bool is_inside_body(const Geometry& geometry, Point p) {
 
 /// Returns the point of a wall that an end of a line outside the bodies is moved to, which is near it or known to be on
 /// walls.
-Point attached(Point end, bool is_known, const Geometry& geometry, std::span<const WallEdge> walls) {
+Point attached(Point end, bool is_known, std::span<const WallEdge> walls) {
     const double reach = is_known ? HUGE_VAL : 0.5;  // of the edge
     double nearest = HUGE_VAL;
     Point result = end;
@@ -277,7 +277,7 @@ Arrangement arrange(std::span<const InternalLine> lines, const Strip& strip, con
                 Point& end = is_last ? points.back() : points.front();
                 ends[is_last] = !known.empty() && known[k][is_last];
                 const bool is_inside = is_inside_body(geometry, end);
-                const Point on_wall = is_inside ? end : attached(end, ends[is_last], geometry, result.walls);
+                const Point on_wall = is_inside ? end : attached(end, ends[is_last], result.walls);
                 ends[is_last] |= is_inside || on_wall != end;
                 end = on_wall;
             }

@@ -241,16 +241,13 @@ std::vector<VertexId> vertices_along(const layers::Layer& layer, std::size_t ele
     const layers::Ray& ray = rays[i];
     std::vector<VertexId> vertices;
     for (std::uint32_t n = 0; n <= ray.layers; ++n) vertices.push_back(ray.vertex(n));
-    const std::size_t n = rays.size(), length = border.size();
-    for (const bool is_after : {false, true}) {
-        const layers::Ray& beside = rays[(i + (is_after ? 1 : n - 1)) % n];
-        if (ray.layers != 1 || beside.layers > 0 || beside.origin != ray.origin) continue;
-        auto at = static_cast<std::size_t>(std::find(border.begin(), border.end(), ray.tip()) - border.begin());
-        for (std::size_t k = 0; k < length && border[at % length] != ray.origin; ++k) {
-            if (k > 0) vertices.insert(vertices.begin() + 1, border[at % length]);
-            at = at % length + (is_after ? 1 : length - 1);
-        }
-        break;
+    const std::optional<layers::BareSide> bare = layers::bare_side_of(rays, i);
+    if (!bare) return vertices;
+    const std::size_t length = border.size(), step = bare == layers::BareSide::after ? 1 : length - 1;
+    auto at = static_cast<std::size_t>(std::find(border.begin(), border.end(), ray.tip()) - border.begin());
+    for (std::size_t k = 0; k < length && border[at % length] != ray.origin; ++k) {
+        if (k > 0) vertices.insert(vertices.begin() + 1, border[at % length]);
+        at = at % length + step;
     }
     return vertices;
 }

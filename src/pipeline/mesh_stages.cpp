@@ -215,7 +215,7 @@ void take_cells(const layers::Layer& layer, MadePieces& pieces, MeshResult& resu
 void complete_walls_without_thickness(std::span<const InternalLine> lines, double min_angle_deg, MadeMesh& made) {
     MeshResult& result = made.result;
     if (lines.empty() && !has_sheets(result.geometry)) return;
-    close_sheets(result);
+    close_sheets(result);  // first: it wants one vertex on either side of a sheet
     split_two_sided(lines, result.mesh, made.constraints);
     result.mesh.constraints = made.constraints;
     WallSummary walls = std::move(result.check.walls);

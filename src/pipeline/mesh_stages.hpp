@@ -61,7 +61,7 @@ void finish_check(mesh::PiecewiseCheck& check, const MadePieces& pieces, std::sp
 /// Moves the cells to the result, but for markers, with what is known of layer and refinement.
 void take_cells(const layers::Layer& layer, MadePieces& pieces, MeshResult& result);
 
-/// Doubles the vertices of two-sided lines, closes sheets, and checks the mesh as a whole, if there are any: pieces
+/// Closes sheets, doubles the vertices of two-sided lines, and checks the mesh as a whole, if there are any: pieces
 /// know no lines, and sheets with a gap. Beside lines the summary of walls stays that of the pieces, since those with
 /// two sides have no layers.
 void complete_walls_without_thickness(std::span<const InternalLine> lines, double min_angle_deg, MadeMesh& made);

@@ -146,10 +146,12 @@ TEST(Coves, AreFairedOnEitherSide) {
     std::vector<Point> upright = given, flipped;
     std::vector<bool> corners(given.size());
     corners.front() = corners.back() = true;
+    for (std::size_t i = given.size() / 2; i + 1 < given.size(); ++i)
+        if (given[i].x <= 0.6 && given[i + 1].x > 0.6) corners[i] = true;
     std::vector<bool> flipped_corners = corners;
     for (const Point p : given) flipped.push_back({p.x, -p.y});
-    flow::fair_cove(upright, corners, 1);
-    flow::fair_cove(flipped, flipped_corners, 1);
+    flow::fair_cove(upright, corners, 1, 0.05);
+    flow::fair_cove(flipped, flipped_corners, 1, 0.05);
     ASSERT_NE(upright, given);
     ASSERT_EQ(upright.size(), flipped.size());
     ASSERT_EQ(upright.size(), corners.size());
@@ -166,12 +168,20 @@ TEST(Coves, AreFairedOnEitherSide) {
     EXPECT_LT(highest_below(upright), 0.015);
 }
 
+TEST(Coves, WithoutASlotBehindThemAreNone) {
+    std::vector<Point> points = section_with_cove(0.6, 0.99, 0.05);
+    const std::vector<Point> given = points;
+    std::vector<bool> corners(given.size(), true);
+    flow::fair_cove(points, corners, 1, 0.5);
+    EXPECT_EQ(points, given);
+}
+
 TEST(Coves, SmoothSidesHaveNone) {
     for (const char* digits : {"0012", "4412", "6409"}) {
         const std::vector<Point> given = naca_airfoil(digits, 161).points;
         std::vector<Point> faired = given;
-        std::vector<bool> corners(given.size());
-        flow::fair_cove(faired, corners, 1);
+        std::vector<bool> corners(given.size(), true);
+        flow::fair_cove(faired, corners, 1, 0.05);
         EXPECT_EQ(faired, given) << digits;
     }
 }
@@ -214,6 +224,7 @@ TEST(CoupledFlow, IsForUpToFiveElementsOutsideOfRowsWhoseLayersBecomeTurbulent) 
     EXPECT_TRUE(can_be_coupled(bodies, {.reynolds = 1e6}));
     bodies.elements.push_back(section);
     EXPECT_FALSE(can_be_coupled(bodies, {.reynolds = 1e6}));
+    EXPECT_FALSE(can_be_coupled({}, {.reynolds = 1e6}));
 }
 
 TEST(CoupledFlow, SectionsFarFromEachOtherAreAsAlone) {

@@ -156,7 +156,9 @@ TEST(CloseSheets, LinesMayMeetThem) {
             // A line on both sides of a tiny gap asks for no tiny edges.
             EXPECT_LT(result.mesh.points.size(), 40'000u);
             EXPECT_EQ(result.check.isotropic.unexcused(), 0u);
-            if (with_layers) EXPECT_EQ(result.check.walls.share_of_kept_heights, 1);
+            if (with_layers) {
+                EXPECT_EQ(result.check.walls.share_of_kept_heights, 1);
+            }
             for (const InternalLine& line : options.lines) {
                 double length = 0;
                 for (const Segment& edge : marker_of(result.mesh, line.name)->edges)

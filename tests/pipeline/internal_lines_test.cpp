@@ -198,19 +198,27 @@ TEST(InternalLines, StayOnWallsThatBecomeFiner) {
 /// The border of the layer runs along a line between a ray with one layer and one without, and is divided there.
 TEST(InternalLines, TakeTheVerticesOfBordersAlongThem) {
     const Point at{0.5127934989278096, 0.052054051803331454};
-    CaseOptions options = options_with({{.name = "first", .points = {at, {0.4063092149104569, 0.12118016579396967}}},
-                                        {.name = "second", .points = {at, {0.2340400061640232, 0.19000523194615682}}},
-                                        {.name = "third", .points = {at, {0.5552565724388647, 0.13405713009801634}}}});
-    options.far_field.pitch = Length{1.7973916327551889};
-    options.conditions.alpha_deg = 10;
-    options.layer.first_height = Length{1e-4};
-    const Mesh mesh = generate_mesh({"naca:0012"}, options).mesh;
-    EXPECT_TRUE(check_mesh(mesh).valid());
-    const std::vector<Segment> edges = sorted_edges(mesh);
-    for (const InternalLine& line : options.lines)
-        for (const Segment& edge : marker_of(mesh, line.name)->edges) {
-            const auto [a, b] = std::minmax(edge.a, edge.b);
-            EXPECT_TRUE(std::binary_search(edges.begin(), edges.end(), Segment{a, b}));
+    for (const double up : {1.0, -1.0})
+        for (const LayerTopology topology : {LayerTopology::layered, LayerTopology::quads, LayerTopology::delaunay}) {
+            SCOPED_TRACE(testing::Message() << up << ", topology " << static_cast<int>(topology));
+            const auto line = [&](const char* name, Point end) {
+                return InternalLine{.name = name, .points = {{at.x, up * at.y}, {end.x, up * end.y}}};
+            };
+            CaseOptions options = options_with({line("first", {0.4063092149104569, 0.12118016579396967}),
+                                                line("second", {0.2340400061640232, 0.19000523194615682}),
+                                                line("third", {0.5552565724388647, 0.13405713009801634})});
+            options.far_field.pitch = Length{1.7973916327551889};
+            options.conditions.alpha_deg = up * 10;
+            options.layer.first_height = Length{1e-4};
+            options.layer.topology = topology;
+            const Mesh mesh = generate_mesh({"naca:0012"}, options).mesh;
+            EXPECT_TRUE(check_mesh(mesh).valid());
+            const std::vector<Segment> edges = sorted_edges(mesh);
+            for (const InternalLine& given : options.lines)
+                for (const Segment& edge : marker_of(mesh, given.name)->edges) {
+                    const auto [a, b] = std::minmax(edge.a, edge.b);
+                    EXPECT_TRUE(std::binary_search(edges.begin(), edges.end(), Segment{a, b}));
+                }
         }
 }
 

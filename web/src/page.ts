@@ -22,6 +22,7 @@ const picture = new Picture(
     byId("picked").textContent = text;
   },
   (x, y, reach) => chart.mark(nearestPlace(walls, x, y, reach)),
+  () => chart.mark(undefined),
 );
 /** x and y of the points whose pressures the chart shows. */
 let walls: {x: Float64Array; y: Float64Array}[] = [];

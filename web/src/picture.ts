@@ -129,12 +129,14 @@ export class Picture {
     bar: HTMLElement,
     onPick: (text: string) => void,
     onHover: (x: number, y: number, reach: number) => void,
+    onLeave: () => void,
   ) {
     this.#canvas = canvas;
     this.#bar = bar;
     this.#onPick = onPick;
     this.#onHover = onHover;
     canvas.parentElement!.addEventListener("pointermove", (event) => this.#hover(event));
+    canvas.parentElement!.addEventListener("pointerleave", onLeave);
     this.#dark.addEventListener("change", () => this.setColoring(this.#coloring));
   }
 

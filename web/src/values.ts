@@ -146,7 +146,7 @@ export interface Facts {
   isotropic: Quality;
   /** Null where the cells are straight. */
   curved: Curving | null;
-  /** Null where no flow decided: without a Reynolds number, and where it could not be solved. */
+  /** Null where no flow decided: without a Reynolds number, where it could not be solved, and where it was not asked for. */
   flow: FlowFacts | null;
   /** The time that the mesh took. */
   seconds: number;

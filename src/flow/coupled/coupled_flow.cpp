@@ -205,14 +205,17 @@ private:
         constexpr int most_tries = 5;
         Attempt result = solve_at(alpha_deg, conditions, nullptr);
         if (result.layers.converged) return result;
-        if (!last_ && !solve_at(0.5 * alpha_deg, conditions, nullptr).layers.converged) return result;
-        double step = alpha_deg - last_->alpha_deg;
-        for (int tries = 0; tries < most_tries && !(result.layers.converged && last_->alpha_deg == alpha_deg);
-             ++tries) {
-            result = solve_at(last_->alpha_deg + step, conditions, &*last_);
-            step = result.layers.converged ? alpha_deg - last_->alpha_deg : 0.5 * step;
+        if (!last_ && (alpha_deg == 0 || !solve_at(0.5 * alpha_deg, conditions, nullptr).layers.converged))
+            return result;
+        double share = 1;  // of the way from the last one
+        for (int tries = 0; tries < most_tries; ++tries) {
+            const double from = last_->alpha_deg, to = share == 1 ? alpha_deg : from + share * (alpha_deg - from);
+            result = solve_at(to, conditions, &*last_);
+            if (result.layers.converged && to == alpha_deg) return result;
+            if (from == alpha_deg) break;  // of another Reynolds number
+            share = result.layers.converged ? 1 : 0.5 * share;
         }
-        result.layers.converged = result.layers.converged && result.alpha_deg == alpha_deg;
+        result.layers.converged = false;
         return result;
     }
 
@@ -264,7 +267,8 @@ private:
 namespace lamina {
 
 bool can_be_coupled(const Geometry& geometry, const ReferenceConditions& reference, const FlowWalls& walls) {
-    return geometry.elements.size() <= flow::coupled::most_elements && reference.reynolds &&
+    const std::size_t elements = geometry.elements.size();
+    return elements > 0 && elements <= flow::coupled::most_elements && reference.reynolds &&
            !flow::is_laminar(reference) && !walls.pitch;
 }
 

@@ -39,7 +39,6 @@ PanelResponse make_response(std::span<const Contour> contours, const FlowWalls& 
 /// on.
 struct BodyPlaces {
     std::size_t first, wake, end;
-    bool operator==(const BodyPlaces&) const = default;
 };
 
 /// The places of a flow, and the speeds there: along the outline on walls, downstream in wakes. Place i has

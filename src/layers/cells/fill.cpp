@@ -407,13 +407,15 @@ delaunay::pieces::PiecewiseTriangulation triangulate_without_lines(const Layer& 
     return pieces;
 }
 
-/// Returns the edges of the rays along lines.
+/// Returns the edges of the rays along lines, but for those along which the border runs.
 std::vector<Segment> edges_along_lines(const Layer& layer) {
     std::vector<Segment> edges;
     for (const std::vector<Ray>& rays : layer.rays)
-        for (const Ray& ray : rays)
-            for (std::uint32_t n = 1; ray.along_line && n <= ray.layers; ++n)
-                edges.push_back({ray.vertex(n - 1), ray.vertex(n)});
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            const Ray& ray = rays[i];
+            if (!ray.along_line || bare_side_of(rays, i)) continue;
+            for (std::uint32_t n = 1; n <= ray.layers; ++n) edges.push_back({ray.vertex(n - 1), ray.vertex(n)});
+        }
     return edges;
 }
 
