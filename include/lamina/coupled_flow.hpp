@@ -43,7 +43,8 @@ LAMINA_EXPORT void validate(const TransitionOptions& options);
 
 /// Where the layers of an element become turbulent, as shares of its extent in x.
 struct TransitionPlaces {
-    double upper = 1, lower = 1;
+    double upper = 1;  ///< on the upper side; 1 where they stay laminar
+    double lower = 1;  ///< on the lower side
 };
 
 /// The flow with boundary layers that displace it.
