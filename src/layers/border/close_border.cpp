@@ -322,6 +322,17 @@ void add_corners(const Rays& rays, std::size_t i, std::size_t next, bool ends, s
     for (std::size_t k = 1; k <= ray.corner_after.size(); ++k) front.push_back({i, 0, k});
 }
 
+/// Adds the corners of the front of an outer wall. Rays at one vertex have one corner there if they have no layers.
+void add_outer_corners(const Rays& rays, std::size_t element, std::vector<FrontCorner>& front) {
+    const RaySet& set = rays.set;
+    const std::size_t shown = rays.domain_end(element);
+    for (std::size_t i = set.begin[element]; i < set.begin[element + 1]; ++i) {
+        const bool goes_on = i + 1 < shown && set.lines[i].origin == set.lines[i + 1].origin;
+        if (goes_on && rays.counts[i] == 0 && rays.counts[i + 1] == 0) continue;
+        front.push_back({i, i < shown ? rays.counts[i] : 0});
+    }
+}
+
 std::vector<std::vector<FrontCorner>> front_corners(const Rays& rays) {
     const RaySet& set = rays.set;
     const std::vector<std::uint32_t>& counts = rays.counts;
@@ -331,12 +342,7 @@ std::vector<std::vector<FrontCorner>> front_corners(const Rays& rays) {
     for (std::size_t e = 0; e < set.elements(); ++e) {
         const std::size_t begin = set.begin[e], end = set.begin[e + 1];
         if (rays.is_outer(e)) {
-            const std::size_t shown = rays.domain_end(e);
-            for (std::size_t i = begin; i < end; ++i) {
-                const bool goes_on = i + 1 < shown && set.lines[i].origin == set.lines[i + 1].origin;
-                if (goes_on && counts[i] == 0 && counts[i + 1] == 0) continue;
-                fronts[e].push_back({i, i < shown ? counts[i] : 0});
-            }
+            add_outer_corners(rays, e, fronts[e]);
             continue;
         }
         for (std::size_t i = begin; i < end; ++i) {
