@@ -41,7 +41,7 @@ struct TransitionOptions {
 /// Throws OptionError for an option out of range.
 LAMINA_EXPORT void validate(const TransitionOptions& options);
 
-/// Where the layers of an element become turbulent, as shares of its extent in x.
+/// The places where the layers of an element become turbulent, as shares of its extent in x.
 struct TransitionPlaces {
     double upper = 1;  ///< on the upper side; 1 where they stay laminar
     double lower = 1;  ///< on the lower side

@@ -31,7 +31,7 @@ struct Body {
     // edge in the direction between the two sides.
     double base_length = 0;
     Point base_along{};
-    double base_strength = 0, base_source = 0;  ///< over the speed at the trailing edge
+    BaseStrengths base{};
 };
 
 Body make_body(const Contour& contour, std::size_t column, Point origin, double unit_length) {
@@ -46,9 +46,7 @@ Body make_body(const Contour& contour, std::size_t column, Point origin, double 
     const Point base = body.nodes.front() - body.nodes.back();
     body.base_length = length(base);
     body.base_along = (1 / body.base_length) * base;
-    const Point leaving = leaving_direction(body.nodes);
-    body.base_strength = dot(leaving, body.base_along);
-    body.base_source = -dot(leaving, perpendicular(body.base_along));
+    body.base = base_strengths(body.nodes, body.base_along);
     return body;
 }
 
@@ -88,8 +86,8 @@ void add_far_copy(std::span<double> row, const Body& body, Point p, const Image&
 double base_stream_function(const Body& body, Point p, double direction_angle, bool is_at_start) {
     const LoggedNode a = see_with_log(body.nodes.back(), p), b = see_with_log(body.nodes.front(), p);
     const SeenPanel panel = see_panel(a, b, body.base_length, body.base_along);
-    return (body.base_source * source_stream_function(panel, a, b, direction_angle, is_at_start) -
-            body.base_strength * integrate_log(panel, a, b).constant) /
+    return (body.base.sources * source_stream_function(panel, a, b, direction_angle, is_at_start) -
+            body.base.vortices * integrate_log(panel, a, b).constant) /
            (2 * core::pi);
 }
 
@@ -236,13 +234,8 @@ std::vector<PanelSheet> make_sheets(std::span<const Contour> contours, std::span
                                     std::span<const double> strengths) {
     std::vector<PanelSheet> sheets;
     for (std::size_t e = 0; e < bodies.size(); ++e) {
-        const auto first = strengths.begin() + static_cast<std::ptrdiff_t>(bodies[e].column);
-        PanelSheet& sheet = sheets.emplace_back();
-        sheet.nodes = contours[e].nodes;
-        sheet.strengths.assign(first, first + static_cast<std::ptrdiff_t>(sheet.nodes.size()));
-        const double speed = 0.5 * (sheet.strengths.back() - sheet.strengths.front());
-        sheet.base_strength = speed * bodies[e].base_strength;
-        sheet.base_source = speed * bodies[e].base_source;
+        const std::vector<Point>& nodes = contours[e].nodes;
+        sheets.push_back(make_sheet(nodes, strengths.subspan(bodies[e].column, nodes.size()), bodies[e].base));
     }
     return sheets;
 }
@@ -285,6 +278,16 @@ Point leaving_direction(std::span<const Point> nodes) {
     const Point above = unit(nodes[0] - nodes[1]), below = unit(nodes[last] - nodes[last - 1]), sum = above + below;
     // Both sides of a flat end without corners arrive from opposite directions: straight across it is the way out.
     return squared_length(sum) > nearly_opposite ? unit(sum) : unit(perpendicular(above - below));
+}
+
+BaseStrengths base_strengths(std::span<const Point> nodes, Point along) {
+    const Point leaving = leaving_direction(nodes);
+    return {dot(leaving, along), -dot(leaving, perpendicular(along))};
+}
+
+PanelSheet make_sheet(const std::vector<Point>& nodes, std::span<const double> strengths, const BaseStrengths& base) {
+    const double speed = 0.5 * (strengths.back() - strengths.front());
+    return {nodes, {strengths.begin(), strengths.end()}, speed * base.vortices, speed * base.sources};
 }
 
 PanelSolution solve_panels(std::span<const Contour> contours, double alpha_deg, const FlowWalls& walls) {

@@ -51,6 +51,18 @@ std::vector<double> strengths_per_stream_function(std::span<const Contour> conto
 /// Returns the direction in which the flow leaves the trailing edge: between the two sides.
 Point leaving_direction(std::span<const Point> nodes);
 
+/// Strengths of the vortices and sources on a base that send the flow off in that direction, over the speed at the
+/// trailing edge.
+struct BaseStrengths {
+    double vortices = 0, sources = 0;
+};
+
+/// Returns the strengths on the base of a body. `along` is its unit vector, from the last node to the first one.
+BaseStrengths base_strengths(std::span<const Point> nodes, Point along);
+
+/// Returns the sheet of a body with these strengths at its nodes.
+PanelSheet make_sheet(const std::vector<Point>& nodes, std::span<const double> strengths, const BaseStrengths& base);
+
 /// Returns whether a base joins the last node to the first one.
 inline bool has_base(const PanelSheet& sheet) { return !(sheet.nodes.front() == sheet.nodes.back()); }
 

@@ -187,7 +187,7 @@ struct LineFoot {
 /// Lines and outlines inside the domain that rays must not reach. They have no layers themselves.
 struct Obstacles {
     std::vector<std::vector<Point>> outlines;  ///< simple and counter-clockwise, or the two ends of a line
-    /// Those of one vertex follow each other.
+    /// The feet of lines on walls; those of one vertex follow each other.
     std::vector<LineFoot> feet{};
     std::vector<Point> bare{};  ///< other vertices of walls at which rays have no layers
 };

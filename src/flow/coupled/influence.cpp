@@ -91,18 +91,6 @@ std::vector<double> answer_to_sources(const PanelResponse& response, const Panel
     return strengths_for(response.answers, stream_function);
 }
 
-/// The base of a body: what it adds to the velocities for unit speed at the trailing edge.
-struct Base {
-    Panel panel;
-    double vortices, sources;
-};
-
-Base make_base(std::span<const Point> nodes) {
-    const Panel panel = make_panel(nodes.back(), nodes.front());
-    const Point leaving = leaving_direction(nodes);
-    return {panel, dot(leaving, panel.along), -dot(leaving, perpendicular(panel.along))};
-}
-
 /// Adds the velocities in a direction at a point outside of a body for unit strengths at each of its nodes.
 void add_speeds(const BodyPanels& body, const Image& image, Point at, Point direction, std::span<double> speeds) {
     const std::vector<Point>& nodes = body.contour.nodes;
@@ -118,11 +106,12 @@ void add_speeds(const BodyPanels& body, const Image& image, Point at, Point dire
         a = b;
     }
     if (!body.contour.blunt) return;
-    const Base base = make_base(nodes);
+    const Panel base = make_panel(nodes.back(), nodes.front());
+    const BaseStrengths strengths = base_strengths(nodes, base.along);
     const SeenNode first = flow::see(nodes.back(), p), last = flow::see(nodes.front(), p);
-    const SeenPanel panel = see(base.panel, first, last);
-    const double at_unit_speed = along_direction(vortex_velocity(panel, first, last, base.vortices, 0) +
-                                                 source_velocity(panel, first, last, base.sources));
+    const SeenPanel panel = see(base, first, last);
+    const double at_unit_speed = along_direction(vortex_velocity(panel, first, last, strengths.vortices, 0) +
+                                                 source_velocity(panel, first, last, strengths.sources));
     speeds.front() -= 0.5 * at_unit_speed;
     speeds[nodes.size() - 1] += 0.5 * at_unit_speed;
 }
@@ -174,14 +163,9 @@ OuterFlow make_outer_flow(const PanelResponse& response, double alpha_deg) {
     std::vector<PanelSheet> sheets;
     for (const BodyPanels& body : response.bodies) {
         const std::vector<Point>& nodes = body.contour.nodes;
-        const auto first = strengths.begin() + static_cast<std::ptrdiff_t>(body.first_node);
-        PanelSheet& sheet =
-            sheets.emplace_back(PanelSheet{nodes, {first, first + static_cast<std::ptrdiff_t>(nodes.size())}});
-        if (!body.contour.blunt) continue;
-        const Base base = make_base(nodes);
-        const double speed = 0.5 * (sheet.strengths.back() - sheet.strengths.front());
-        sheet.base_strength = speed * base.vortices;
-        sheet.base_source = speed * base.sources;
+        const BaseStrengths base =
+            body.contour.blunt ? base_strengths(nodes, unit(nodes.front() - nodes.back())) : BaseStrengths{};
+        sheets.push_back(make_sheet(nodes, std::span(strengths).subspan(body.first_node, nodes.size()), base));
     }
     return {stream, std::move(strengths), SheetVelocity(sheets, alpha_deg, response.walls)};
 }

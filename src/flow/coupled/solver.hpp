@@ -35,7 +35,7 @@ struct CoupledLayers {
     int steps = 0;
 };
 
-/// Where the layers of a body become turbulent at the latest: arc lengths along the outline.
+/// The places where the layers of a body become turbulent at the latest: arc lengths along the outline.
 struct Trips {
     double upper, lower;
 };
