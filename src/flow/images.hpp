@@ -18,7 +18,15 @@ struct Image {
     bool is_mirrored;
     double shift;
     double share;         ///< of the image's strength that counts
+    double source_share;  ///< the same of sources, which images do not turn round
     bool in_row = false;  ///< whether it is a copy in a row
+
+    /// Returns the image of sources alone.
+    Image of_sources() const {
+        Image image = *this;
+        image.share = source_share;
+        return image;
+    }
 
     /// Returns the point that lies to the bodies as p lies to the image.
     Point seen_from(Point p) const { return {p.x, (is_mirrored ? -p.y : p.y) + shift}; }
@@ -30,37 +38,47 @@ struct Image {
     }
 };
 
-/// Returns the copies in an endless row. The sum over those at k and -k pitches falls as 1 / k^2; the last two stand
-/// for all beyond, so that what is left falls as 1 / k^3 and with the fourth power of the distance over the pitch.
+/// Returns the share of the last two images that stands for all beyond, x^2 (1 / x^2 + 1 / (x + 1)^2 + ...), where what
+/// two of them at x and -x periods give falls as 1 / x^2. What is left falls as 1 / x^3, and with the fourth power of
+/// the distance over the period. By the Euler-Maclaurin formula.
+constexpr double share_of_last(double x) { return x + 0.5 + 1 / (6 * x); }
+
+/// Returns the copies in an endless row.
 inline std::vector<Image> copies_in_row(double pitch) {
     constexpr int last = 12;
-    // k^2 (1 / k^2 + 1 / (k + 1)^2 + ...) for k = last, by the Euler-Maclaurin formula
-    constexpr double share = last + 0.5 + 1 / (6.0 * last);
     std::vector<Image> images;
     for (int k = 1; k <= last; ++k)
-        for (const int sign : {-1, 1}) images.push_back({false, sign * k * pitch, k < last ? 1 : share, true});
+        for (const int sign : {-1, 1}) {
+            const double share = k < last ? 1 : share_of_last(last);
+            images.push_back({false, sign * k * pitch, share, share, true});
+        }
     return images;
 }
 
 /// Returns the images in these walls, or the copies in a row. Those in two walls have images themselves, without end,
 /// of alternating circulation: their sum ends with half of a term, so that it is in the middle of its last two values.
-/// Images of sources do not alternate: what wakes displace raises the speed in a tunnel by some 7 % too little.
+/// Sources do not alternate, and their last images stand for all beyond.
 inline std::vector<Image> images_in(const FlowWalls& walls) {
     if (walls.pitch) return copies_in_row(*walls.pitch);
     if (!walls.below && !walls.above) return {};
-    if (!walls.below || !walls.above) return {{true, 2 * (walls.below ? *walls.below : *walls.above), 1}};
+    if (!walls.below || !walls.above) return {{true, 2 * (walls.below ? *walls.below : *walls.above), 1, 1}};
     constexpr int last = 4;
     const double period = 2 * (*walls.above - *walls.below);
     std::vector<Image> images;
-    for (int k = 1 - last; k <= last; ++k) images.push_back({true, 2 * *walls.below + k * period, 1});
-    for (int k = 1; k <= last; ++k)
-        for (const int sign : {-1, 1}) images.push_back({false, sign * k * period, k < last ? 1 : 0.5});
+    for (int k = 1; k <= last; ++k) {
+        const bool is_last = k == last;
+        // Mirrored ones lie half a period nearer, on both sides of the middle of the tunnel.
+        const double source_share = is_last ? share_of_last(last - 0.5) : 1;
+        for (const int n : {1 - k, k}) images.push_back({true, 2 * *walls.below + n * period, 1, source_share});
+        for (const int sign : {-1, 1})
+            images.push_back({false, sign * k * period, is_last ? 0.5 : 1, is_last ? share_of_last(last) : 1});
+    }
     return images;
 }
 
 /// Returns the bodies themselves, as an image that is not mirrored, and after them their images.
 inline std::vector<Image> bodies_and_images(const FlowWalls& walls) {
-    std::vector<Image> all{{false, 0, 1}};
+    std::vector<Image> all{{false, 0, 1, 1}};
     for (const Image& image : images_in(walls)) all.push_back(image);
     return all;
 }

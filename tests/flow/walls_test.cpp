@@ -74,6 +74,24 @@ TEST(FlowAlongWalls, TunnelWallsRaiseTheLiftOfAPlate) {
     }
 }
 
+/// A source half way between walls is one of a row: z pitches away it gives coth(pi z) / (2 pitch).
+/// Source: L. M. Milne-Thomson, Theoretical Hydrodynamics, 5th ed. (1968), chapter 10.
+TEST(FlowAlongWalls, TunnelWallsKeepWhatASourceGives) {
+    for (const double height : {1.0, 3.0})
+        for (const double share : {0.25, 0.5, 1.0}) {
+            const Point at{share * height, 0};
+            Point velocity;
+            for (const flow::Image& image : flow::bodies_and_images({.below = -0.5 * height, .above = 0.5 * height})) {
+                const Point p = image.seen_from(at);
+                const Point of_source = 1 / (2 * std::numbers::pi * squared_length(p)) * p;
+                velocity = velocity + image.of_sources().velocity(of_source);
+            }
+            const double expected = 1 / (2 * height * std::tanh(std::numbers::pi * share));
+            EXPECT_NEAR(velocity.x, expected, 1.5e-3 * expected) << share;
+            EXPECT_NEAR(velocity.y, 0, 1e-12);
+        }
+}
+
 /// Plates that stand one above the other lift (2 pitch / (pi chord)) tanh(pi chord / (2 pitch)) times as much as one,
 /// in the mean of the streams ahead and behind. Source: F. Weinig, Die Stroemung um die Schaufeln von Turbomaschinen
 /// (1935).

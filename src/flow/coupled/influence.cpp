@@ -59,7 +59,7 @@ struct AngleStart {
 /// image.
 void add_stream_function(std::span<const Point> nodes, const Panel& panel, const AngleStart& start, const Image& image,
                          std::span<double> to) {
-    const double factor = image.stream_function_factor() / (2 * core::pi);
+    const double factor = image.of_sources().stream_function_factor() / (2 * core::pi);
     auto [first, direction, angle] = start;
     for (std::size_t k = 0; k < nodes.size(); ++k) {
         const std::size_t i = (first + k) % nodes.size();
@@ -129,7 +129,7 @@ std::vector<double> speeds_by_strengths(const PanelResponse& response, Point p, 
 double speed_by_source(const Panel& panel, const Image& image, Point at, Point direction) {
     const Point p = image.seen_from(at);
     const SeenNode a = flow::see(panel.begin, p), b = flow::see(panel.end, p);
-    return dot(direction, image.velocity(source_velocity(see(panel, a, b), a, b, 1)));
+    return dot(direction, image.of_sources().velocity(source_velocity(see(panel, a, b), a, b, 1)));
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
