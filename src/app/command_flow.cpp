@@ -30,7 +30,9 @@ namespace lamina::app {
 namespace {
 
 struct FlowArguments {
-    std::vector<std::string> inputs, sheets;
+    std::vector<std::string> inputs;
+    /// Values by the names of option_table<GeometryOptions>().
+    std::map<std::string, std::vector<std::string>> geometry;
     std::map<std::string, std::string> conditions;  ///< values by the names of option_table<FlowConditions>()
     std::map<std::string, std::string> walls;       ///< likewise, of option_table<FarFieldOptions>()
     std::map<std::string, std::string> transition;  ///< likewise, of option_table<TransitionOptions>()
@@ -65,7 +67,8 @@ void flow(const FlowArguments& arguments) {
     MeshCase mesh_case = case_of_inputs(arguments.inputs);
     for (const auto& [name, value] : arguments.walls)
         set_by_name(option_table<FarFieldOptions>(), name, value, mesh_case.options.far_field);
-    set_by_name(option_table<GeometryOptions>(), "sheet", arguments.sheets, mesh_case.options.geometry);
+    for (const auto& [name, values] : arguments.geometry)
+        set_by_name(option_table<GeometryOptions>(), name, values, mesh_case.options.geometry);
     require_any_body(mesh_case);
     require_consistent(mesh_case);
     FlowConditions conditions = mesh_case.options.conditions;
@@ -106,7 +109,8 @@ void add_flow_command(CLI::App& app) {
     CLI::App* command = add_command(app, "flow", "compute the flow round airfoils, without a mesh");
     auto arguments = std::make_shared<FlowArguments>();
     add_option(*command, "INPUT", arguments->inputs, input_help);
-    add_repeated_table_option(*command, option_table<GeometryOptions>(), "sheet", arguments->sheets);
+    for (const char* name : {"transform", "sheet"})
+        add_repeated_table_option(*command, option_table<GeometryOptions>(), name, arguments->geometry[name]);
     for (const char* name : {"alpha", "mach", "reynolds", "velocity", "viscosity", "chord"})
         add_table_option(*command, option_table<FlowConditions>(), name, arguments->conditions[name]);
     add_transition_options(*command, arguments->transition);

@@ -127,6 +127,24 @@ TEST(MeshFromTheFlow, ReportsFirstHeightsWakesAndSpacings) {
         EXPECT_FALSE(block.contains(key)) << key;
 }
 
+TEST(FlowCommand, TurnsConfigurationsAlongWalls) {
+    const TemporaryFolder folder;
+    expect_refused(folder, {"flow", "naca:0012", "--alpha", "4", "--ground", "0.2"}, usage,
+                   "--transform all:rotate:-4");
+    const auto lift = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> words{"flow", "naca:0012", "--transform", "all:rotate:-4", "--reynolds", "1e6"};
+        words.insert(words.end(), more.begin(), more.end());
+        const ProgramRun run = run_lamina(folder, words);
+        EXPECT_EQ(run.exit_code, 0) << run.err;
+        const std::string name = "lift coefficient ";
+        return std::stod(run.out.substr(run.out.find(name) + name.size()));
+    };
+    const double free = lift({});
+    EXPECT_GT(free, 0.4);
+    EXPECT_GT(lift({"--ground", "0.2"}), 1.05 * free);
+    EXPECT_GT(lift({"--tunnel", "1"}), 1.05 * free);
+}
+
 TEST(FlowCommand, RefusesBeforeItWrites) {
     const TemporaryFolder folder;
     expect_refused(folder, {"flow"}, usage, "no INPUT");
