@@ -5,7 +5,19 @@
     mesh = lamina.mesh("naca:0012", reynolds=6e6)
     mesh.write("naca0012.su2")
 
-docs/python.md is the guide. NODE_TYPES and BOUNDARY_LAYER_STATES name the numbers of Mesh.node_type and FlowSide.state.
+help(lamina.mesh) lists all options of meshes, help(lamina.Mesh) what a mesh knows. The functions are:
+
+    make meshes                mesh, batch, family, case (for a solver)
+    before there is a mesh     naca, outlines, info, forecast, flow, polar, read_polar
+    files and pictures         formats, read, write, convert, check, mesh_of_arrays, view, Mesh.plot
+    to other libraries         Mesh.to_pyg, to_meshio, to_pyvista, to_networkx, to_xarray
+    sizes from a solution      sizes, read_metric, remesh
+    the mesh on other shapes   Mesh.morph, cst_shape, hicks_henne_shape, hinge_shape, naca_shape
+    triangulations             delaunay, constrained_delaunay, refine, constrain_triangles, ring_segments, merge_points,
+                               DynamicTriangulation; as with the package triangle: lamina.compat
+
+All errors are lamina.Error, and what a mesh's user should know is issued as lamina.MeshWarning. NODE_TYPES and
+BOUNDARY_LAYER_STATES name the numbers of Mesh.node_type and FlowSide.state. The program is there, too: python -m lamina.
 
     >>> lamina.NODE_TYPES[:3], lamina.BOUNDARY_LAYER_STATES
     (('inside', 'wall', 'far_field'), ('laminar', 'turbulent', 'separated'))

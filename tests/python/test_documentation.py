@@ -16,7 +16,7 @@ import pytest
 import lamina
 
 PAGES = ["README.md", "docs/python.md", "docs/recipes/batch.md", "docs/recipes/morphing.md",
-         "docs/reference/formats.md"]
+         "docs/reference/formats.md", "python/README.md"]
 # What pages name without making it first.
 FILES = {"section.dat": "rae2822.dat", "slat.dat": "crmhl2d_slat.dat", "main.dat": "crmhl2d_main.dat",
          "flap.dat": "crmhl2d_flap.dat"}
@@ -61,9 +61,17 @@ def test_blocks_run(page, repository, small, tmp_path, monkeypatch):
 
 
 def test_no_page_is_left_out(repository):
-    pages = [page for page in [*repository.glob("*.md"), *repository.glob("docs/**/*.md"), repository / "web/README.md"]
+    pages = [page for page in [*repository.glob("*.md"), *repository.glob("docs/**/*.md"), *repository.glob("*/README.md")]
              if "```python" in page.read_text()]
     assert sorted(str(page.relative_to(repository)) for page in pages) == sorted(PAGES)
+
+
+def test_pages_of_registries_stand_alone(repository):
+    """Where packages are shown, a link to a file of the clone leads nowhere."""
+    for page in ("python/README.md", "web/README.md"):
+        text = (repository / page).read_text()
+        assert all(target.startswith("https://") for target in re.findall(r"\]\(([^)]*)\)", text)), page
+    assert 'readme = "python/README.md"' in (repository / "pyproject.toml").read_text()
 
 
 def text_shown(code, names):

@@ -57,6 +57,11 @@ def test_everything_public_is_described():
                     assert inspect.getdoc(value), f"{name}.{member}"
 
 
+def test_the_tour_names_every_function():
+    functions = {name for name in lamina.__all__ if inspect.isfunction(getattr(lamina, name))}
+    assert functions - set(lamina.__doc__.replace(",", " ").split()) == set()
+
+
 def test_version(program):
     version = subprocess.run([program, "--version"], check=True, capture_output=True, text=True).stdout
     assert lamina.__version__ in version
