@@ -22,6 +22,15 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// The signal that ends the thread of a guard. macOS has none that are free for programs but two.
+int signal_of_the_end() {
+#ifdef SIGRTMIN
+    return SIGRTMIN;
+#else
+    return SIGUSR2;
+#endif
+}
+
 bool is_file_or_folder(const fs::path& path) {
     std::error_code ignored;
     const fs::file_type type = fs::status(path, ignored).type();
@@ -148,7 +157,7 @@ SignalGuard::SignalGuard(std::span<const RunFile> outputs) {
         sigaction(signal, nullptr, &action);
         if (action.sa_handler != SIG_IGN) sigaddset(&signals_, signal);
     }
-    sigaddset(&signals_, SIGRTMIN);  // ends the thread
+    sigaddset(&signals_, signal_of_the_end());
     pthread_sigmask(SIG_BLOCK, &signals_, &mask_before_);
     try {
         thread_ = std::thread([this] { wait_for_signals(); });
@@ -160,7 +169,7 @@ SignalGuard::SignalGuard(std::span<const RunFile> outputs) {
 
 SignalGuard::~SignalGuard() {
     ended_ = true;
-    pthread_kill(thread_.native_handle(), SIGRTMIN);
+    pthread_kill(thread_.native_handle(), signal_of_the_end());
     thread_.join();
     pthread_sigmask(SIG_SETMASK, &mask_before_, nullptr);
 }
@@ -213,7 +222,7 @@ void SignalGuard::wait_for_signals() {
     do {
         if (sigwait(&signals_, &signal) != 0) return;
         if (ended_) return;
-    } while (signal == SIGRTMIN);
+    } while (signal == signal_of_the_end());
     // The run goes on meanwhile, and may make one file after another; so the last pass finds nothing.
     for (int more = max_passes; more > 0 && remove_temporaries(); --more) continue;
     std::error_code ignored;
