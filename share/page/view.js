@@ -3,9 +3,10 @@ import {orderTriangles} from "./order.js";
 import {createPainter} from "./painter.js";
 
 const nearWall = 10;  // CSS pixels from a wall vertex that count as a hit
-// Milliseconds that draw() takes at most. For so long pictures stay whole where browsers without a window, which take one
-// as soon as the page is there, change its size before.
-const longestDraw = 4000;
+// Milliseconds that draw() takes at most. For so long pictures stay whole where browsers without a window, which take
+// one as soon as the page is there, change its size before. Without a graphics card a million triangles take a second;
+// where ten programs share a core, 40,000 do, and their picture must be whole there, too.
+const longestDraw = 20000;
 
 // Returns the way from one view to another as a function of the share of the way, from 0 to 1, and its length. Views
 // are {x, y, width}. Source: J. van Wijk, W. Nuij, Smooth and efficient zooming and panning (2003).
