@@ -1,6 +1,7 @@
 // Reads CGNS files with one base and one unstructured zone whose sections are of the types TRI_3, QUAD_4 and BAR_2 and
 // have any names. An edge belongs to the boundary condition that lists it; an edge in none belongs to a marker that its
-// section makes. Source: CGNS Standard Interface Data Structures 3.4; the CGNS mid-level library.
+// section makes. Where cells are PENTA_6 and HEXA_8, the plane mesh is read whose copies in z they join; its edges are
+// those that faces stand on. Source: CGNS Standard Interface Data Structures 3.4; the CGNS mid-level library.
 #include <cgnslib.h>
 #include <fcntl.h>
 #include <sys/resource.h>
@@ -32,6 +33,7 @@
 #include "io/curved_lists.hpp"
 #include "io/formats.hpp"
 #include "io/mesh_parts.hpp"
+#include "io/plane_of_extrusion.hpp"
 
 namespace lamina::io {
 
@@ -73,6 +75,7 @@ public:
         read_sections();
         read_boundary_conditions();
         make_markers();
+        if (is_in_space()) gather_extrusion();
         make_regions();
         CurvedMesh curved{std::move(mesh_), std::move(curved_)};
         if (order_ > 1) curved.nodes.order = order_;
@@ -104,13 +107,14 @@ public:
 private:
     using Name = char[33];
 
-    /// A section of edges.
-    struct BarSection {
+    /// A section of edges or, in space, of faces.
+    struct BoundarySection {
         std::string name;
         cgsize_t first;  ///< number of its first element
         std::vector<Segment> bars;
         std::vector<VertexId> nodes;  ///< per bar those between its ends
-        std::vector<int> condition;   ///< per bar: the number of its boundary condition, from 1; 0 where it is in none
+        std::vector<int> condition;   ///< per edge: the number of its boundary condition, from 1; 0 where it is in none
+        std::vector<SpaceMesh::Face> faces;
     };
 
     [[noreturn]] void fail(const std::string& reason) const { throw InputError({name_, 0, {}}, reason); }
@@ -145,7 +149,10 @@ private:
         std::vector<double> read(points_);
         const cgsize_t first = 1, last = static_cast<cgsize_t>(points_);
         require(cg_field_read(file_, 1, 1, solution, array.c_str(), RealDouble, &first, &last, read.data()));
-        return read;
+        if (!is_in_space()) return read;
+        std::vector<double> of_plane;
+        for (const std::uint32_t node : plane_.nodes) of_plane.push_back(read[node]);
+        return of_plane;
     }
 
     void read_zone() {
@@ -155,9 +162,9 @@ private:
         require(cg_nbases(file_, &bases));
         if (bases != 1) fail(fmt::format("{} bases: only files with one can be read", bases));
         require(cg_base_read(file_, 1, name, &cell_dimension, &dimension_));
-        if (cell_dimension != 2 || dimension_ < 2 || dimension_ > 3)
-            fail(fmt::format("cells of dimension {} in {} dimensions: only plane meshes can be read", cell_dimension,
-                             dimension_));
+        if (cell_dimension < 2 || dimension_ < cell_dimension || dimension_ > 3)
+            fail(fmt::format("cells of dimension {} in {} dimensions", cell_dimension, dimension_));
+        cell_dimension_ = cell_dimension;
         require(cg_nzones(file_, 1, &zones));
         if (zones != 1) fail(fmt::format("{} zones: only files with one can be read", zones));
         require(cg_zone_type(file_, 1, 1, &type));
@@ -187,8 +194,15 @@ private:
             mesh_.points[i] = {x[i], y[i]};
         }
         if (dimension_ == 2) return;
+        std::vector<double> heights = read_axis("CoordinateZ");
+        if (is_in_space()) {
+            space_.heights = std::move(heights);
+            for (const double z : space_.heights)
+                if (!std::isfinite(z)) fail("a coordinate z is not finite");
+            return;
+        }
         std::optional<double> plane;
-        for (const double z : read_axis("CoordinateZ")) {
+        for (const double z : heights) {
             if (z != plane.value_or(z))
                 fail(fmt::format("points in the planes z = {} and z = {}: the mesh is not plane", *plane, z));
             plane = z;
@@ -205,7 +219,12 @@ private:
             int boundary_elements = 0, has_parents = 0;
             require(cg_section_read(file_, 1, 1, s, name, &type, &first, &last, &boundary_elements, &has_parents));
             if (type == NODE) continue;
-            const CgnsElement* const element = find_cgns_element(type);
+            const CgnsElement* const element = is_in_space() ? find_element_in_space(type) : find_cgns_element(type);
+            if (element == nullptr && is_in_space())
+                fail(
+                    fmt::format("section '{}' has elements {}: in space only prisms, hexahedra, and their faces can be "
+                                "read",
+                                name, cg_ElementTypeName(type)));
             if (element == nullptr)
                 fail(fmt::format(
                     "section '{}' has elements {}: only bars, triangles and quadrilaterals with all nodes of "
@@ -214,24 +233,53 @@ private:
             if (order_ != 0 && element->order != order_) fail("elements of several orders");
             order_ = element->order;
             require(cg_ElementDataSize(file_, 1, 1, s, &size));
-            const auto of_element = static_cast<cgsize_t>(element->nodes());
+            const bool is_volume = type == PENTA_6 || type == HEXA_8;
+            const auto of_element = static_cast<cgsize_t>(is_volume ? 2 * element->corners : element->nodes());
             if (first < 1 || last < first || size < 0 || static_cast<std::uintmax_t>(size) > bytes_ ||
                 size / of_element != last - first + 1 || size % of_element != 0)
                 fail(fmt::format("section '{}' has not the elements {} to {}", name, first, last));
             std::vector<cgsize_t> nodes(static_cast<std::size_t>(size));
             require(cg_elements_read(file_, 1, 1, s, nodes.data(), nullptr));
-            add_section(name, *element, first, nodes);
+            for (const cgsize_t node : nodes)
+                if (node < 1 || static_cast<std::size_t>(node) > points_)
+                    fail(fmt::format("section '{}': vertex {} where there are {}", name, node, points_));
+            if (is_volume)
+                add_volumes(name, element->corners, nodes);
+            else if (is_in_space())
+                add_faces(name, element->corners, first, nodes);
+            else
+                add_section(name, *element, first, nodes);
         }
+    }
+    bool is_in_space() const { return cell_dimension_ == 3; }
+    /// Returns the element that is one face of this one, or the face itself; null where there is none.
+    static const CgnsElement* find_element_in_space(ElementType_t type) {
+        if (type == TRI_3 || type == PENTA_6) return &cgns_element(3, 1);
+        return type == QUAD_4 || type == HEXA_8 ? &cgns_element(4, 1) : nullptr;
+    }
+    void add_volumes(const std::string& name, std::size_t corners, const std::vector<cgsize_t>& nodes) {
+        for (std::size_t first = 0; first < nodes.size(); first += 2 * corners) {
+            SpaceMesh::Volume& volume = space_.volumes.emplace_back(SpaceMesh::Volume{corners, {}});
+            for (std::size_t k = 0; k < 2 * corners; ++k)
+                volume.nodes[k] = static_cast<std::uint32_t>(nodes[first + k] - 1);
+        }
+        section_of_volume_.resize(space_.volumes.size(), static_cast<std::uint32_t>(volume_sections_.size()));
+        volume_sections_.push_back(name);
+    }
+    void add_faces(const std::string& name, std::size_t corners, cgsize_t first, const std::vector<cgsize_t>& nodes) {
+        BoundarySection section{name, first, {}, {}, {}, {}};
+        section.condition.resize(nodes.size() / corners, 0);
+        for (std::size_t i = 0; i < nodes.size(); i += corners) {
+            SpaceMesh::Face& face = section.faces.emplace_back(SpaceMesh::Face{corners, {}, 0});
+            for (std::size_t k = 0; k < corners; ++k) face.nodes[k] = static_cast<std::uint32_t>(nodes[i + k] - 1);
+        }
+        boundary_sections_.push_back(std::move(section));
     }
     void add_section(const std::string& name, const CgnsElement& element, cgsize_t first,
                      const std::vector<cgsize_t>& nodes) {
-        const auto vertex = [&](std::size_t i) {
-            if (nodes[i] < 1 || static_cast<std::size_t>(nodes[i]) > points_)
-                fail(fmt::format("section '{}': vertex {} where there are {}", name, nodes[i], points_));
-            return VertexId(static_cast<std::size_t>(nodes[i] - 1));
-        };
+        const auto vertex = [&](std::size_t i) { return VertexId(static_cast<std::size_t>(nodes[i] - 1)); };
         const std::size_t size = element.nodes(), count = nodes.size() / size;
-        BarSection bars{name, first, {}, {}, {}};
+        BoundarySection bars{name, first, {}, {}, {}, {}};
         std::vector<VertexId>& beside = element.corners == 3   ? curved_.triangle_nodes
                                         : element.corners == 4 ? curved_.quad_nodes
                                                                : bars.nodes;
@@ -248,7 +296,7 @@ private:
         }
         if (element.corners == 2) {
             bars.condition.resize(count, 0);
-            bar_sections_.push_back(std::move(bars));
+            boundary_sections_.push_back(std::move(bars));
         } else {
             (element.corners == 3 ? triangle_sections_ : quad_sections_).emplace_back(name, count);
         }
@@ -278,9 +326,9 @@ private:
             std::vector<cgsize_t> elements(static_cast<std::size_t>(points));
             require(cg_boco_read(file_, 1, 1, c, elements.data(), nullptr));
             if (set == PointRange || set == ElementRange) {
-                if (elements.size() == 2) mark_bars(elements[0], elements[1], c);
+                if (elements.size() == 2) mark_elements(elements[0], elements[1], c);
             } else {
-                for (const cgsize_t element : elements) mark_bars(element, element, c);
+                for (const cgsize_t element : elements) mark_elements(element, element, c);
             }
         }
     }
@@ -299,10 +347,10 @@ private:
         }
         return BCGeneral;
     }
-    /// Notes the boundary condition of the elements first to last, as far as they are bars.
-    void mark_bars(cgsize_t first, cgsize_t last, int condition) {
-        for (BarSection& section : bar_sections_) {
-            const auto size = static_cast<cgsize_t>(section.bars.size());
+    /// Notes the boundary condition of the elements first to last, as far as they are of the boundary.
+    void mark_elements(cgsize_t first, cgsize_t last, int condition) {
+        for (BoundarySection& section : boundary_sections_) {
+            const auto size = static_cast<cgsize_t>(section.condition.size());
             const cgsize_t begin = std::max<cgsize_t>(first - section.first, 0);
             const cgsize_t end = std::min<cgsize_t>(last - section.first + 1, size);
             for (cgsize_t i = begin; i < end; ++i) section.condition[static_cast<std::size_t>(i)] = condition;
@@ -311,26 +359,48 @@ private:
 
     void make_markers() {
         const std::size_t of_conditions = conditions_.size();
-        for (const BarSection& section : bar_sections_)
+        for (const BoundarySection& section : boundary_sections_)
             conditions_.push_back({section.name, core::kind_of_name(section.name), {}});
         std::vector<std::vector<VertexId>> nodes(conditions_.size());
-        for (std::size_t s = 0; s < bar_sections_.size(); ++s) {
-            const BarSection& section = bar_sections_[s];
+        for (std::size_t s = 0; s < boundary_sections_.size(); ++s) {
+            BoundarySection& section = boundary_sections_[s];
+            const auto marker_of = [&](std::size_t i) {
+                const int c = section.condition[i];
+                return c == 0 ? of_conditions + s : static_cast<std::size_t>(c - 1);
+            };
+            for (std::size_t i = 0; i < section.faces.size(); ++i) {
+                section.faces[i].marker = marker_of(i);
+                space_.faces.push_back(section.faces[i]);
+            }
             const std::ptrdiff_t between =
                 section.bars.empty() ? 0 : std::ssize(section.nodes) / std::ssize(section.bars);
             for (std::size_t i = 0; i < section.bars.size(); ++i) {
-                const int c = section.condition[i];
-                const std::size_t marker = c == 0 ? of_conditions + s : static_cast<std::size_t>(c - 1);
+                const std::size_t marker = marker_of(i);
                 conditions_[marker].edges.push_back(section.bars[i]);
                 const auto begin = section.nodes.begin() + static_cast<std::ptrdiff_t>(i) * between;
                 nodes[marker].insert(nodes[marker].end(), begin, begin + between);
             }
         }
+        if (is_in_space()) return;
         for (std::size_t m = 0; m < conditions_.size(); ++m) {
             if (conditions_[m].edges.empty()) continue;
             mesh_.markers.push_back(std::move(conditions_[m]));
             curved_.marker_nodes.insert(curved_.marker_nodes.end(), nodes[m].begin(), nodes[m].end());
         }
+    }
+    /// Reads the plane mesh whose copies in z the file holds.
+    void gather_extrusion() {
+        space_.points = std::exchange(mesh_.points, {});
+        plane_ = plane_of_extrusion(space_, conditions_.size(), name_);
+        for (const std::uint32_t node : plane_.nodes) mesh_.points.push_back(space_.points[node]);
+        mesh_.triangles = std::move(plane_.triangles);
+        mesh_.quads = std::move(plane_.quads);
+        for (std::size_t m = 0; m < conditions_.size(); ++m) {
+            conditions_[m].edges = std::move(plane_.edges[m]);
+            if (!conditions_[m].edges.empty()) mesh_.markers.push_back(std::move(conditions_[m]));
+        }
+        for (const std::uint32_t volume : plane_.volumes)
+            triangle_sections_.emplace_back(volume_sections_[section_of_volume_[volume]], 1);
     }
     void make_regions() {
         triangle_sections_.insert(triangle_sections_.end(), quad_sections_.begin(), quad_sections_.end());
@@ -345,15 +415,19 @@ private:
     }
 
     std::string name_;
-    int file_ = 0, dimension_ = 2;
+    int file_ = 0, dimension_ = 2, cell_dimension_ = 2;
     std::size_t points_ = 0;
     std::uintmax_t bytes_ = 0;                                                            ///< size of the file
     std::vector<std::pair<std::string, std::size_t>> triangle_sections_, quad_sections_;  ///< names, numbers of cells
-    std::vector<BarSection> bar_sections_;
+    std::vector<BoundarySection> boundary_sections_;
     std::vector<Marker> conditions_;  ///< one marker per boundary condition, then the markers of sections
     unsigned order_ = 0;              ///< of all elements; 0 before the first one
     Mesh mesh_;
-    CurvedNodes curved_;  ///< the nodes of elements beside their corners, as points of the mesh
+    CurvedNodes curved_;                        ///< the nodes of elements beside their corners, as points of the mesh
+    SpaceMesh space_;                           ///< where cells are volumes
+    std::vector<std::string> volume_sections_;  ///< names
+    std::vector<std::uint32_t> section_of_volume_;
+    PlaneOfExtrusion plane_;  ///< where cells are volumes
 };
 
 /// Returns whether a file is one of ADF, the older kind of CGNS files.

@@ -188,6 +188,7 @@ std::vector<FormatRow> msh_rows() {
                     .description = "Gmsh MSH 2.2, ASCII, in space, for gmshToFoam",
                     .write = write_extruded_msh,
                     .files = one_file,
+                    .read = read_one_file<read_msh>,
                     .takes_span = true,
                     .one_stream = true});
     return rows;

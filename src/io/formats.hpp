@@ -99,7 +99,7 @@ struct VtuVariant {
 void write_vtu(const MeshView& mesh, VtuVariant variant, std::ostream& out);
 /// Writes curved cells as Lagrange cells.
 void write_curved_vtu(const MeshView& mesh, const CurvedNodes& nodes, bool compressed, std::ostream& out);
-/// Writes a mesh in space, which is not read back.
+/// Writes a mesh in space.
 void write_vtu_extruded(const MeshView& mesh, const Extrusion& extrusion, bool compressed, std::ostream& out);
 /// Reads a mesh with straight cells.
 Mesh read_vtu(const std::string& bytes, const std::filesystem::path& file);
@@ -148,7 +148,7 @@ PointValues read_msh_sizes(const std::string& bytes, const std::filesystem::path
 struct CgnsVariant {
     bool adf = false;                      ///< writes the older container in place of HDF5
     bool three_coordinates = false;        ///< writes CoordinateZ = 0, for readers that accept no plane meshes
-    const Extrusion* extrusion = nullptr;  ///< writes a mesh in space, which is not read back; null: a plane one
+    const Extrusion* extrusion = nullptr;  ///< writes a mesh in space; null: a plane one
 };
 /// Writes a mesh with straight cells, whose nodes are none, or a plane one with curved ones.
 void write_cgns(const MeshView& mesh, const CurvedNodes& nodes, const std::filesystem::path& file, CgnsVariant variant);
@@ -187,10 +187,12 @@ void write_openfoam_time(const MeshView& reference, std::span<const Point> point
 /// Returns the names of both files.
 std::vector<std::filesystem::path> openfoam_time_files(const std::filesystem::path& folder);
 Mesh read_openfoam(const std::filesystem::path& file);
-/// A mesh, and the number of each of its cells in the files it was read from: triangles, then quads.
+/// A mesh, and the number of each of its cells in the files it was read from: triangles, then quads. Where the files
+/// hold several cells across the span, these are the lowest ones.
 struct NumberedCells {
     Mesh mesh;
     std::vector<std::uint32_t> numbers;
+    std::size_t cells_in_files = 0;
 };
 LAMINA_EXPORT NumberedCells read_numbered_openfoam(const std::filesystem::path& file);
 /// Reads fields of a time folder, or of the latest one in the folder of a case. `mesh`: its case or polyMesh; empty:

@@ -1,5 +1,5 @@
 // Reads Gmsh's MSH format, versions 2.0 to 2.2 and 4.1, ASCII and binary: plane meshes of lines, triangles and
-// quadrilaterals of one order from 1 to 4. Points (element type 15) and unknown sections are skipped.
+// quadrilaterals of one order from 1 to 4, and those whose copies in z are joined by prisms and hexahedra. Points (element type 15) and unknown sections are skipped.
 // Source: Gmsh reference manual, "Gmsh mesh file formats".
 //
 // The lines of a physical curve become a marker with the name of the group; lines without a group are left out. Where
@@ -23,6 +23,7 @@
 #include "io/formats.hpp"
 #include "io/mesh_parts.hpp"
 #include "io/msh_elements.hpp"
+#include "io/plane_of_extrusion.hpp"
 #include "io/sizes.hpp"
 
 namespace lamina::io {
@@ -91,6 +92,7 @@ public:
     }
     /// Returns the sizes that the file holds. Precondition: read() was called.
     std::vector<double> sizes() {
+        if (!space_.volumes.empty()) in_.fail("sizes are read of plane meshes alone");
         std::vector<std::string> names;
         for (const auto& [name, values] : node_data_) names.emplace_back(name);
         return std::move(node_data_.find(size_array(names, file_))->second);
@@ -184,11 +186,9 @@ private:
     void read_point() {
         const auto x = in_.number<double>("coordinate"), y = in_.number<double>("coordinate"),
                    z = in_.number<double>("coordinate");
-        if (!std::isfinite(x) || !std::isfinite(y)) in_.fail("coordinate is not a finite number");
-        if (mesh_.points.empty()) plane_ = z;
-        if (z != plane_)
-            in_.fail(fmt::format("nodes in the planes z = {} and z = {}: the mesh is not plane", plane_, z));
+        if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z)) in_.fail("coordinate is not a finite number");
         mesh_.points.push_back({x, y});
+        space_.heights.push_back(z);
     }
     void end_nodes() {
         in_.expect("$EndNodes");
@@ -243,13 +243,14 @@ private:
         if (std::exchange(has_elements_, true)) in_.fail("a second $Elements");
     }
     int element_type(int type) const {
-        if (find_msh_element(type) == nullptr && type != msh_point)
-            in_.fail(fmt::format(
-                "element type {}: only points (15) and lines, triangles and quadrilaterals of orders 1 to 4 "
-                "(1, 2, 3 at order 1) can be read",
-                type));
+        if (find_msh_element(type) == nullptr && type != msh_point && !is_volume(type))
+            in_.fail(
+                fmt::format("element type {}: only points (15), lines, triangles and quadrilaterals of orders 1 to 4 "
+                            "(1, 2, 3 at order 1), prisms (6) and hexahedra (5) can be read",
+                            type));
         return type;
     }
+    static bool is_volume(int type) { return type == msh_prism || type == msh_hexahedron; }
     template <class Number>
     VertexId find_node(Number number) const {
         const auto found = nodes_.find(static_cast<std::size_t>(number));
@@ -257,7 +258,16 @@ private:
         return *found;
     }
     template <class Number>
+    void read_volume(int type, int group) {
+        SpaceMesh::Volume& volume = space_.volumes.emplace_back();
+        volume.corners = type == msh_prism ? 3 : 4;
+        for (std::size_t k = 0; k < 2 * volume.corners; ++k)
+            volume.nodes[k] = static_cast<std::uint32_t>(find_node(in_.number<Number>("node number")).index());
+        volume_groups_.push_back(group);
+    }
+    template <class Number>
     void read_element(int type, int group) {
+        if (is_volume(type)) return read_volume<Number>(type, group);
         const MshElement* const element = find_msh_element(type);
         const std::size_t nodes = element == nullptr ? 1 : element->nodes;
         std::array<VertexId, 25> v;
@@ -324,17 +334,58 @@ private:
         return tags;
     }
 
+    /// Makes the plane mesh of its copies: triangles and quadrilaterals are faces of the volumes.
+    void gather_extrusion() {
+        if (order_ > 1) in_.fail("curved elements beside prisms and hexahedra");
+        std::map<int, std::size_t> markers;
+        const auto add_faces = [&](std::size_t corners, const auto& cells, const std::vector<int>& groups) {
+            for (std::size_t i = 0; i < cells.size(); ++i) {
+                if (groups[i] == 0) continue;
+                const std::size_t marker = markers.emplace(groups[i], markers.size()).first->second;
+                SpaceMesh::Face& face = space_.faces.emplace_back(SpaceMesh::Face{corners, {}, marker});
+                for (std::size_t k = 0; k < corners; ++k)
+                    face.nodes[k] = static_cast<std::uint32_t>(cells[i].v[k].index());
+            }
+        };
+        add_faces(3, mesh_.triangles, triangle_groups_);
+        add_faces(4, mesh_.quads, quad_groups_);
+        space_.points = std::exchange(mesh_.points, {});
+        PlaneOfExtrusion plane = plane_of_extrusion(space_, markers.size(), file_);
+        for (const std::uint32_t node : plane.nodes) mesh_.points.push_back(space_.points[node]);
+        mesh_.triangles = std::move(plane.triangles);
+        mesh_.quads = std::move(plane.quads);
+        edges_.clear();  // lines of the file, if any, are edges of faces
+        edge_nodes_.clear();
+        for (const auto& [group, marker] : markers)
+            if (!plane.edges[marker].empty()) edges_[group] = std::move(plane.edges[marker]);
+        triangle_groups_.clear();
+        quad_groups_.clear();
+        for (const std::uint32_t volume : plane.volumes) triangle_groups_.push_back(volume_groups_[volume]);
+    }
+    void require_plane() const {
+        for (std::size_t i = 0; i < space_.heights.size(); ++i)
+            if (const double z = space_.heights[i], first = space_.heights.front(); z != first)
+                throw InputError(
+                    {file_.string(), 0, {}},
+                    fmt::format("node {} of the file lies in the plane z = {}, the first one in z = {}: the "
+                                "mesh is not plane, nor are there prisms or hexahedra",
+                                i + 1, z, first));
+    }
+
     void finish() {
+        const bool in_space = !space_.volumes.empty();
+        in_space ? gather_extrusion() : require_plane();
         for (auto& [group, edges] : edges_) {
-            const auto named = names_.find({1, group});
-            const std::string name = named == names_.end() ? fmt::format("curve{}", group) : std::string(named->second);
+            const auto named = names_.find({in_space ? 2 : 1, group});
+            const std::string name = named != names_.end() ? std::string(named->second)
+                                                           : fmt::format("{}{}", in_space ? "surface" : "curve", group);
             mesh_.markers.push_back({name, core::kind_of_name(name), std::move(edges)});
             const std::vector<VertexId>& nodes = edge_nodes_[group];
             curved_.marker_nodes.insert(curved_.marker_nodes.end(), nodes.begin(), nodes.end());
         }
         triangle_groups_.insert(triangle_groups_.end(), quad_groups_.begin(), quad_groups_.end());
         for (const int group : triangle_groups_) {
-            const auto named = names_.find({2, group});
+            const auto named = names_.find({in_space ? 3 : 2, group});
             Region region;
             if (named == names_.end() || !region_of_name(named->second, region)) {
                 mesh_.region.clear();
@@ -352,7 +403,8 @@ private:
     ByteReader in_;
     std::filesystem::path file_;
     bool version_4_ = true, has_nodes_ = false, has_elements_ = false;
-    double plane_ = 0;  ///< z of all nodes
+    SpaceMesh space_;                 ///< heights of all nodes, and the volumes
+    std::vector<int> volume_groups_;  ///< per volume: its physical group, or 0
     NodeNumbers nodes_;
     std::map<EntityKey, std::string_view> names_;  ///< of the physical groups
     std::map<EntityKey, int> group_of_entity_;

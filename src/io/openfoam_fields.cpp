@@ -114,9 +114,9 @@ Solution read_openfoam_solution(const fs::path& folder, std::span<const FieldReq
             throw UsageError(fmt::format("{}: no field '{}'", time.string(), request.array));
         const CellValues read = read_values(file);
         const std::vector<double> all = part_of(request, read.values, read.components);
-        if (!read.uniform && all.size() != cells.numbers.size())
+        if (!read.uniform && all.size() != cells.cells_in_files)
             throw InputError({file.string(), 0, {}},
-                             fmt::format("{} values where the mesh has {} cells", all.size(), cells.numbers.size()));
+                             fmt::format("{} values where the mesh has {} cells", all.size(), cells.cells_in_files));
         SolutionField field{request.name, true, {}};
         for (const std::uint32_t cell : cells.numbers) field.values.push_back(all[read.uniform ? 0 : cell]);
         solution.fields.push_back(std::move(field));

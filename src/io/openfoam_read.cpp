@@ -1,16 +1,13 @@
-// Reads an OpenFOAM polyMesh in ASCII that holds a mesh one cell thick: prisms and hexahedra between two planes of
-// constant z. Source: OpenFOAM user guide, "Mesh description".
+// Reads an OpenFOAM polyMesh in ASCII that holds a plane mesh in copies: prisms and hexahedra between planes of constant
+// z. Source: OpenFOAM user guide, "Mesh description".
 //
-// The faces with all points in the lower plane are the cells. The other faces of patches stand on the edges of markers.
-// Points of the lower plane keep their order, and cells the order of their numbers. Patches of type empty make no
-// markers.
+// Points of the lowest plane keep their order, and cells the order of their numbers. Patches in the lowest or in the
+// highest plane make no markers.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <optional>
-#include <span>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -21,7 +18,7 @@
 #include "core/marker_names.hpp"
 #include "io/foam_words.hpp"
 #include "io/formats.hpp"
-#include "io/mesh_parts.hpp"
+#include "io/plane_of_extrusion.hpp"
 
 namespace lamina::io {
 
@@ -52,44 +49,32 @@ public:
         read_points();
         owner_ = read_cells("owner");
         read_patches();
-        if (const std::size_t internal = read_cells("neighbour").size();
-            internal != (patches_.empty() ? owner_.size() : patches_.front().start))
+        neighbour_ = read_cells("neighbour");
+        if (neighbour_.size() != (patches_.empty() ? owner_.size() : patches_.front().start))
             throw InputError({(folder_ / "neighbour").string(), 0, {}},
-                             fmt::format("{} internal faces, but the first patch begins elsewhere", internal));
+                             fmt::format("{} internal faces, but the first patch begins elsewhere", neighbour_.size()));
         read_faces();
-        gather_cells();
-        return {std::move(mesh_), std::move(numbers_)};
+        gather_volumes();
+        gather_plane();
+        return {std::move(mesh_), std::move(numbers_), space_.volumes.size()};
     }
 
 private:
-    /// Makes vertices of the points in the lower plane.
     void read_points() {
         FoamWords in(folder_ / "points");
         in.read_header("vectorField");
         const std::size_t n = in.begin_list("number of points", std::string_view("(0 0 0)").size());
-        std::vector<std::array<double, 3>> points(n);
-        for (auto& point : points) {
+        space_.points.resize(n);
+        space_.heights.resize(n);
+        for (std::size_t i = 0; i < n; ++i) {
             in.expect("(");
-            for (double& c : point) {
-                c = in.number<double>("coordinate");
-                if (!std::isfinite(c)) in.fail("coordinate is not a finite number");
+            for (double* const c : {&space_.points[i].x, &space_.points[i].y, &space_.heights[i]}) {
+                *c = in.number<double>("coordinate");
+                if (!std::isfinite(*c)) in.fail("coordinate is not a finite number");
             }
             in.expect(")");
         }
         in.end_list();
-        double low = HUGE_VAL, high = -HUGE_VAL;
-        for (const auto& point : points) low = std::min(low, point[2]), high = std::max(high, point[2]);
-        vertex_.resize(n);
-        for (std::size_t i = 0; i < n; ++i) {
-            const auto& [x, y, z] = points[i];
-            if (z != low && z != high)
-                in.fail(
-                    fmt::format("point {} lies between the planes z = {} and z = {}: the mesh is not one cell thick", i,
-                                low, high));
-            if (z == high) continue;
-            vertex_[i] = VertexId(mesh_.points.size());
-            mesh_.points.push_back({x, y});
-        }
     }
     /// Reads the file `owner` or `neighbour`: one cell per face.
     std::vector<std::uint32_t> read_cells(const char* name) {
@@ -141,85 +126,98 @@ private:
         const std::size_t boundary = patches_.empty() ? n : patches_.front().start;
         std::size_t patch = 0;
         for (std::size_t f = 0; f < n; ++f) {
-            const FoamFace face = read_face(in, f);
+            faces_.push_back(read_face(in, f));
             if (f < boundary) continue;
             while (patch < patches_.size() && f >= patches_[patch].start + patches_[patch].faces) ++patch;
             if (patch == patches_.size() || f < patches_[patch].start)
                 in.fail(fmt::format("face {} is in no patch", f));
-            add_face(in, f, patches_[patch], face);
+            faces_.back().marker = patch;
         }
         in.end_list();
+        space_.faces.assign(faces_.begin() + static_cast<std::ptrdiff_t>(boundary), faces_.end());
     }
-    /// The vertices of a face; those in the upper plane are invalid.
-    struct FoamFace {
-        std::array<VertexId, 4> v;
-        std::size_t corners;
-
-        std::span<VertexId> vertices() { return {v.data(), corners}; }
-    };
-    FoamFace read_face(FoamWords& in, std::size_t number) const {
-        const auto corners = in.number<std::size_t>("number of corners");
-        if (corners != 3 && corners != 4) in.fail(fmt::format("face {} has {} corners, not 3 or 4", number, corners));
+    SpaceMesh::Face read_face(FoamWords& in, std::size_t number) const {
+        SpaceMesh::Face face;
+        face.corners = in.number<std::size_t>("number of corners");
+        if (face.corners != 3 && face.corners != 4)
+            in.fail(fmt::format("face {} has {} corners, not 3 or 4", number, face.corners));
         in.expect("(");
-        FoamFace face{{}, corners};
-        for (VertexId& v : face.vertices()) {
-            const auto point = in.number<std::size_t>("point");
-            if (point >= vertex_.size()) in.fail(fmt::format("point {} where there are {}", point, vertex_.size()));
-            v = vertex_[point];
+        for (std::size_t k = 0; k < face.corners; ++k) {
+            face.nodes[k] = in.number<std::uint32_t>("point");
+            if (face.nodes[k] >= space_.points.size())
+                in.fail(fmt::format("point {} where there are {}", face.nodes[k], space_.points.size()));
         }
         in.expect(")");
         return face;
     }
-    /// Adds a face of the boundary as a cell, as an edge of a marker, or, in the upper plane, not at all. The normals
-    /// of faces point outward: faces in the lower plane run clockwise, and the lower edge of a side has its cell on the
-    /// left.
-    void add_face(const FoamWords& in, std::size_t number, const FoamPatch& patch, FoamFace face) {
-        const auto& v = face.v;
-        const std::span<VertexId> vertices = face.vertices();
-        const auto is_lower = [](VertexId vertex) { return vertex.valid(); };
-        if (std::all_of(vertices.begin(), vertices.end(), is_lower)) {
-            std::reverse(vertices.begin(), vertices.end());
-            if (face.corners == 3)
-                triangles_.push_back({owner_[number], {{v[0], v[1], v[2]}}});
-            else
-                quads_.push_back({owner_[number], {{v[0], v[1], v[2], v[3]}}});
-        } else if (std::any_of(vertices.begin(), vertices.end(), is_lower)) {
-            Segment edge;
-            if (!find_lower_edge(vertices, edge)) in.fail(fmt::format("face {} does not stand on an edge", number));
-            if (patch.type == "empty")
-                in.fail(fmt::format("face {} is in patch '{}', of type empty", number, patch.name));
-            if (mesh_.markers.empty() || mesh_.markers.back().name != patch.name)
-                mesh_.markers.push_back({patch.name, kind_of(patch), {}});
-            mesh_.markers.back().edges.push_back(edge);
-        }
-    }
 
-    void gather_cells() {
-        const auto by_number = [](const auto& a, const auto& b) { return a.first < b.first; };
-        std::stable_sort(triangles_.begin(), triangles_.end(), by_number);
-        std::stable_sort(quads_.begin(), quads_.end(), by_number);
-        for (const auto& [cell, triangle] : triangles_) {
-            mesh_.triangles.push_back(triangle);
-            numbers_.push_back(cell);
-        }
-        for (const auto& [cell, quad] : quads_) {
-            mesh_.quads.push_back(quad);
-            numbers_.push_back(cell);
-        }
-        // Where a face of either plane is internal or missing, the number of cells does not fit.
+    /// Makes each cell of its face that lies lower in a plane and of the points above that face's corners.
+    void gather_volumes() {
         const std::size_t cells = owner_.empty() ? 0 : std::size_t{1} + *std::max_element(owner_.begin(), owner_.end());
-        if (triangles_.size() + quads_.size() != cells)
-            throw InputError({folder_.string(), 0, {}},
-                             fmt::format("{} cells, but {} faces in the lower plane: the mesh is not one cell thick",
-                                         cells, triangles_.size() + quads_.size()));
+        if (cells > owner_.size()) fail(fmt::format("{} cells, but {} faces", cells, owner_.size()));
+        std::vector<std::uint32_t> above(space_.points.size(), no_point), faces_in_planes(cells, 0);
+        for (const SpaceMesh::Face& face : faces_) find_points_above(face, above);
+        space_.volumes.resize(cells);
+        for (std::size_t f = 0; f < faces_.size(); ++f) {
+            if (!lies_in_plane(faces_[f])) continue;
+            add_to_volume(f, owner_[f], faces_in_planes);
+            if (f >= neighbour_.size()) continue;
+            if (neighbour_[f] >= cells) fail(fmt::format("cell {} where there are {}", neighbour_[f], cells));
+            add_to_volume(f, neighbour_[f], faces_in_planes);
+        }
+        for (std::size_t c = 0; c < cells; ++c) {
+            SpaceMesh::Volume& volume = space_.volumes[c];
+            if (faces_in_planes[c] != 2) fail(fmt::format("cell {} has {} faces in planes", c, faces_in_planes[c]));
+            for (std::size_t k = 0; k < volume.corners; ++k) {
+                const std::uint32_t node = above[volume.nodes[k]];
+                if (node == no_point) fail(fmt::format("there is no face above point {}", volume.nodes[k]));
+                volume.nodes[volume.corners + k] = node;
+            }
+        }
+    }
+    bool lies_in_plane(const SpaceMesh::Face& face) const {
+        const double height = space_.heights[face.nodes[0]];
+        return std::all_of(face.nodes.begin(), face.nodes.begin() + static_cast<std::ptrdiff_t>(face.corners),
+                           [&](std::uint32_t node) { return space_.heights[node] == height; });
+    }
+    /// Notes the point that each edge of an upright face leads up to.
+    void find_points_above(const SpaceMesh::Face& face, std::vector<std::uint32_t>& above) const {
+        if (face.corners != 4 || lies_in_plane(face)) return;
+        for (std::size_t k = 0; k < 4; ++k) {
+            std::uint32_t low = face.nodes[k], high = face.nodes[(k + 1) % 4];
+            if (space_.heights[low] > space_.heights[high]) std::swap(low, high);
+            if (space_.heights[low] < space_.heights[high]) above[low] = high;
+        }
+    }
+    /// Takes a face of a cell that lies in a plane for the cell's lower face where it is the first or lies lower.
+    void add_to_volume(std::size_t f, std::uint32_t cell, std::vector<std::uint32_t>& faces_in_planes) {
+        SpaceMesh::Volume& volume = space_.volumes[cell];
+        if (++faces_in_planes[cell] > 1 && space_.heights[volume.nodes[0]] < space_.heights[faces_[f].nodes[0]]) return;
+        volume.corners = faces_[f].corners;
+        std::copy_n(faces_[f].nodes.begin(), volume.corners, volume.nodes.begin());
     }
 
+    void gather_plane() {
+        PlaneOfExtrusion plane = plane_of_extrusion(space_, patches_.size(), folder_);
+        for (const std::uint32_t node : plane.nodes) mesh_.points.push_back(space_.points[node]);
+        mesh_.triangles = std::move(plane.triangles);
+        mesh_.quads = std::move(plane.quads);
+        numbers_ = std::move(plane.volumes);
+        for (std::size_t p = 0; p < patches_.size(); ++p) {
+            if (plane.edges[p].empty()) continue;
+            if (patches_[p].type == "empty")
+                fail(fmt::format("patch '{}', of type empty, has faces that stand upright", patches_[p].name));
+            mesh_.markers.push_back({patches_[p].name, kind_of(patches_[p]), std::move(plane.edges[p])});
+        }
+    }
+    [[noreturn]] void fail(const std::string& reason) const { throw InputError({folder_.string(), 0, {}}, reason); }
+
+    static constexpr std::uint32_t no_point = std::numeric_limits<std::uint32_t>::max();
     fs::path folder_;
-    std::vector<VertexId> vertex_;      ///< per point: its vertex; invalid in the upper plane
-    std::vector<std::uint32_t> owner_;  ///< per face: its cell, or the lower one of its two cells
+    std::vector<std::uint32_t> owner_, neighbour_;  ///< per face: its cells; a face of the boundary has no second one
     std::vector<FoamPatch> patches_;
-    std::vector<std::pair<std::uint32_t, Triangle>> triangles_;  ///< with the numbers of the cells
-    std::vector<std::pair<std::uint32_t, Quad>> quads_;
+    std::vector<SpaceMesh::Face> faces_;  ///< all faces
+    SpaceMesh space_;                     ///< its faces are those of the boundary, its markers the patches
     Mesh mesh_;
     std::vector<std::uint32_t> numbers_;  ///< of the cells of the mesh
 };

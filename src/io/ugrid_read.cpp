@@ -1,13 +1,11 @@
-// Reads UGRID files, plane or one cell thick, in ASCII or binary. Markers take their names and kinds from the .mapbc
+// Reads UGRID files, plane or extruded in y, in ASCII or binary. Markers take their names and kinds from the .mapbc
 // file where there is one. ugrid.hpp describes the format.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <map>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,6 +17,7 @@
 #include "io/byte_reader.hpp"
 #include "io/formats.hpp"
 #include "io/mesh_parts.hpp"
+#include "io/plane_of_extrusion.hpp"
 #include "io/ugrid.hpp"
 
 namespace lamina::io {
@@ -63,7 +62,7 @@ std::map<int, BoundaryCondition> read_mapbc(const fs::path& file) {
 class UgridReader {
 public:
     UgridReader(const std::string& bytes, const fs::path& file)
-        : in_(bytes, file.string()), conditions_(read_mapbc(mapbc_of(file))) {
+        : in_(bytes, file.string()), file_(file), conditions_(read_mapbc(mapbc_of(file))) {
         const UgridEncoding encoding = encoding_of(file);
         if (encoding != UgridEncoding::ascii)
             in_.set_binary(encoding == UgridEncoding::big_endian ? ByteOrder::big : ByteOrder::little);
@@ -77,13 +76,13 @@ public:
             count = in_.checked_count(static_cast<std::size_t>(value), 4, "count");
         }
         const auto [nodes, triangles, quads, tetrahedra, pyramids, prisms, hexahedra] = counts;
-        if (tetrahedra + pyramids > 0) in_.fail("tetrahedra and pyramids: the mesh is not one cell thick");
+        if (tetrahedra + pyramids > 0) in_.fail("tetrahedra and pyramids: the mesh is not an extruded plane one");
         read_nodes(nodes);
         const std::vector<UgridFace> faces = read_faces(triangles, quads);
         if (prisms + hexahedra == 0)
             gather_plane(faces);
         else
-            gather_one_cell_thick(faces, prisms, hexahedra);
+            gather_extrusion(faces, prisms, hexahedra);
         if (!in_.at_end()) in_.fail("something follows the last number");
         name_markers();
         orient_markers(mesh_);
@@ -96,9 +95,6 @@ private:
         std::array<std::uint32_t, 4> nodes{};
         int surface = 0;  ///< number of its marker or plane
     };
-    /// The vertices of a face; invalid in the upper plane.
-    using FaceVertices = std::array<VertexId, 4>;
-
     void read_nodes(std::size_t count) {
         in_.checked_count(count, 24, "number of nodes");
         for (std::size_t i = 0; i < count; ++i)
@@ -123,66 +119,46 @@ private:
         for (UgridFace& face : faces) face.surface = in_.number<std::int32_t>("number of a surface");
         return faces;
     }
-    FaceVertices vertices_of(const UgridFace& face) const {
-        FaceVertices v;
-        for (std::size_t k = 0; k < face.corners; ++k) v[k] = vertex_[face.nodes[k]];
-        return v;
-    }
-    void add_cell(const FaceVertices& v, std::size_t corners) {
-        if (corners == 3)
-            mesh_.triangles.push_back({{v[0], v[1], v[2]}});
-        else
-            mesh_.quads.push_back({{v[0], v[1], v[2], v[3]}});
-    }
-
     void gather_plane(const std::vector<UgridFace>& faces) {
-        for (const auto& [x, y, z] : nodes_) {
-            vertex_.emplace_back(mesh_.points.size());
-            mesh_.points.push_back({x, y});
+        for (const auto& [x, y, z] : nodes_) mesh_.points.push_back({x, y});
+        for (const auto& [corners, nodes, surface] : faces) {
+            std::array<VertexId, 4> v;
+            for (std::size_t k = 0; k < corners; ++k) v[k] = VertexId(nodes[k]);
+            if (corners == 3)
+                mesh_.triangles.push_back({{v[0], v[1], v[2]}});
+            else
+                mesh_.quads.push_back({{v[0], v[1], v[2], v[3]}});
         }
-        for (const UgridFace& face : faces) add_cell(vertices_of(face), face.corners);
         const auto edges = in_.number<std::int32_t>("number of edges of the boundary");
         for (std::int32_t i = 0; i < edges; ++i) {
-            const std::uint32_t a = read_node_number(), b = read_node_number();
-            edges_[in_.number<std::int32_t>("number of a boundary")].push_back({vertex_[a], vertex_[b]});
+            const VertexId a(read_node_number()), b(read_node_number());
+            edges_[in_.number<std::int32_t>("number of a boundary")].push_back({a, b});
         }
     }
 
-    /// Makes cells of the faces in the lower plane, and edges of the boundary of the faces that stand on it.
-    void gather_one_cell_thick(const std::vector<UgridFace>& faces, std::size_t prisms, std::size_t hexahedra) {
-        for (std::size_t i = 0; i < 6 * prisms + 8 * hexahedra; ++i) read_node_number();
-        gather_lower_plane();
-        for (const UgridFace& face : faces) add_face(face);
-        if (mesh_.triangles.size() != prisms || mesh_.quads.size() != hexahedra)
-            in_.fail("the mesh is not one cell thick in y");
-    }
-    /// Makes vertices of the nodes with the lower y.
-    void gather_lower_plane() {
-        double low = HUGE_VAL, high = -HUGE_VAL;
-        for (const auto& [x, y, z] : nodes_) low = std::min(low, y), high = std::max(high, y);
-        vertex_.resize(nodes_.size());
-        for (std::size_t i = 0; i < nodes_.size(); ++i) {
-            const auto& [x, y, z] = nodes_[i];
-            if (y != low && y != high) in_.fail(fmt::format("node {} lies between the planes of the mesh", i + 1));
-            if (y == high) continue;
-            vertex_[i] = VertexId(mesh_.points.size());
-            mesh_.points.push_back({x, z});
+    /// Reads the plane mesh whose copies across y the file holds.
+    void gather_extrusion(const std::vector<UgridFace>& faces, std::size_t prisms, std::size_t hexahedra) {
+        SpaceMesh space;
+        for (const auto& [x, y, z] : nodes_) {
+            space.points.push_back({x, z});
+            space.heights.push_back(y);
         }
-    }
-    void add_face(const UgridFace& face) {
-        FaceVertices v = vertices_of(face);
-        const std::span<VertexId> vertices(v.data(), face.corners);
-        const auto is_lower = [](VertexId vertex) { return vertex.valid(); };
-        if (std::all_of(vertices.begin(), vertices.end(), is_lower)) {
-            // Inward normals make the face clockwise, but not all programs follow this rule.
-            const auto at = [&](std::size_t k) { return mesh_.points[v[k].index()]; };
-            if (cross(at(1) - at(0), at(2) - at(0)) < 0) std::reverse(vertices.begin(), vertices.end());
-            add_cell(v, face.corners);
-        } else if (std::any_of(vertices.begin(), vertices.end(), is_lower)) {
-            Segment edge;
-            if (!find_lower_edge(vertices, edge)) in_.fail("a face that does not stand on an edge");
-            edges_[face.surface].push_back(edge);
+        for (std::size_t i = 0; i < prisms + hexahedra; ++i) {
+            SpaceMesh::Volume& volume = space.volumes.emplace_back();
+            volume.corners = i < prisms ? 3 : 4;
+            for (std::size_t k = 0; k < 2 * volume.corners; ++k) volume.nodes[k] = read_node_number();
         }
+        std::map<int, std::size_t> markers;
+        for (const UgridFace& face : faces) {
+            const std::size_t marker = markers.emplace(face.surface, markers.size()).first->second;
+            space.faces.push_back({face.corners, face.nodes, marker});
+        }
+        PlaneOfExtrusion plane = plane_of_extrusion(space, markers.size(), file_);
+        for (const std::uint32_t node : plane.nodes) mesh_.points.push_back(space.points[node]);
+        mesh_.triangles = std::move(plane.triangles);
+        mesh_.quads = std::move(plane.quads);
+        for (const auto& [surface, marker] : markers)
+            if (!plane.edges[marker].empty()) edges_[surface] = std::move(plane.edges[marker]);
     }
 
     void name_markers() {
@@ -195,9 +171,9 @@ private:
     }
 
     ByteReader in_;
+    fs::path file_;
     std::map<int, BoundaryCondition> conditions_;
     std::vector<std::array<double, 3>> nodes_;
-    std::vector<VertexId> vertex_;               ///< per node: its vertex; invalid in the upper plane
     std::map<int, std::vector<Segment>> edges_;  ///< edges of the boundary by the number of their marker
     Mesh mesh_;
 };

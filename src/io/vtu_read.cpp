@@ -1,7 +1,8 @@
 // Reads VTK XML unstructured grids of triangles (5), quads (9) and lines (3), or of these with the nodes of one order
 // up to 4: Lagrange cells (69, 70, 68), and quadratic ones (22, 28, 21), whose nodes have the same places. Ignores z,
 // vertices and polylines (1, 2, 4), arrays that lamina does not write, and lines that are in no marker. vtu_write.cpp
-// describes the arrays. Source: VTK User's Guide, "VTK File Formats", XML.
+// describes the arrays. Where there are wedges (13) or hexahedra (12), the grid is a plane mesh extruded in z, and that
+// plane mesh is read. Source: VTK User's Guide, "VTK File Formats", XML.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,6 +26,7 @@
 #include "io/curved_lists.hpp"
 #include "io/formats.hpp"
 #include "io/mesh_arrays.hpp"
+#include "io/plane_of_extrusion.hpp"
 #include "io/sizes.hpp"
 #include "io/vtk_cell_types.hpp"
 #include "io/vtk_xml.hpp"
@@ -63,6 +65,15 @@ unsigned order_of(std::uint8_t type, std::int64_t vertices) {
 }
 
 bool is_ignored(std::uint8_t type) { return type == vtk_vertex || type == vtk_poly_vertex || type == vtk_poly_line; }
+
+bool is_volume(std::uint8_t type) { return type == vtk_wedge || type == vtk_hexahedron; }
+
+/// Returns the values with these indices.
+std::vector<double> chosen(const std::vector<double>& values, std::span<const std::uint32_t> indices) {
+    std::vector<double> result;
+    for (const std::uint32_t i : indices) result.push_back(values[i]);
+    return result;
+}
 
 /// The values of an array one after the other. Of an array that is stored raw only some are in memory at a time.
 template <class T>
@@ -113,16 +124,12 @@ public:
         : xml_(bytes, file.string()), file_(file), bytes_(bytes.size()), writer_(writer), mesh_(std::move(target)) {}
 
     Target read() {
-        read_points();
-        if (writer_ == Writer::lamina) read_markers_and_constraints();
-        read_cells();
+        read_all();
         if (order_ > 1) xml_.fail(curved_cells_refused(order_));
         return std::move(mesh_);
     }
     CurvedMesh read_curved() requires std::is_same_v<Target, Mesh> {
-        read_points();
-        read_markers_and_constraints();
-        read_cells();
+        read_all();
         CurvedMesh curved{std::move(mesh_), std::move(curved_)};
         if (order_ <= 1) return curved;
         curved.nodes.order = order_;
@@ -134,7 +141,8 @@ public:
     /// Returns the sizes that the file holds as point data.
     std::vector<double> sizes() const {
         const std::string section = "PointData";
-        return xml_.values<double>(section + "/" + size_array(xml_.scalars(section), file_), xml_.points());
+        return at_vertices(
+            xml_.values<double>(section + "/" + size_array(xml_.scalars(section), file_), xml_.points()));
     }
 
     /// Returns the growth of sizes that the file holds, if any.
@@ -177,7 +185,7 @@ public:
     /// Returns a field of the points or, where they have none of this name, of the cells. Precondition: read().
     SolutionField field(const FieldRequest& request) const {
         const std::string at_points = "PointData/" + request.array, at_cells = "CellData/" + request.array;
-        if (xml_.has(at_points)) return {request.name, false, part(request, at_points, xml_.points())};
+        if (xml_.has(at_points)) return {request.name, false, at_vertices(part(request, at_points, xml_.points()))};
         if (!xml_.has(at_cells)) throw UsageError(fmt::format("{}: no array '{}'", file_.string(), request.array));
         const std::vector<double> all = part(request, at_cells, xml_.cells());
         SolutionField field{request.name, true, {}};
@@ -186,13 +194,34 @@ public:
     }
 
 private:
+    void read_all() {
+        if (xml_.points() > bytes_) xml_.fail("NumberOfPoints exceeds the file");
+        if (xml_.cells() > bytes_) xml_.fail("NumberOfCells exceeds the file");
+        is_in_space_ = holds_volumes();
+        if (!is_in_space_) read_points();
+        if (writer_ == Writer::lamina) read_markers_and_constraints();
+        is_in_space_ ? read_extrusion() : read_cells();
+        read_cell_array("CellData/region", static_cast<std::size_t>(Region::isotropic), mesh_.region);
+        read_cell_array("CellData/piece", std::numeric_limits<std::uint32_t>::max(), mesh_.piece);
+        read_cell_array("CellData/layer", std::numeric_limits<std::uint16_t>::max(), mesh_.layer);
+    }
+    bool holds_volumes() const {
+        ValuesInOrder<std::uint8_t> types(xml_, "Cells/types", xml_.cells());
+        for (std::size_t i = 0; i < xml_.cells(); ++i)
+            if (is_volume(types[i])) return true;
+        return false;
+    }
+    /// Returns the values of the mesh's vertices out of those of all points.
+    std::vector<double> at_vertices(std::vector<double> values) const {
+        return is_in_space_ && values.size() == xml_.points() ? chosen(values, plane_.nodes) : values;
+    }
+
     std::vector<double> part(const FieldRequest& request, const std::string& array, std::size_t tuples) const {
         const std::size_t components = xml_.components(array);
         return part_of(request, xml_.values<double>(array, components * tuples), components);
     }
 
     void read_points() {
-        if (xml_.points() > bytes_) xml_.fail("NumberOfPoints exceeds the file");
         ValuesInOrder<double> coordinates(xml_, "Points/", 3 * xml_.points());
         mesh_.points.reserve(xml_.points());
         for (std::size_t i = 0; i < xml_.points(); ++i) {
@@ -232,22 +261,12 @@ private:
     }
 
     void read_cells() {
-        if (xml_.cells() > bytes_) xml_.fail("NumberOfCells exceeds the file");
-        CellArrays arrays{{xml_, "Cells/types", xml_.cells()},
-                          {xml_, "Cells/offsets", xml_.cells()},
-                          {xml_, "Cells/connectivity"},
-                          {}};
-        if (writer_ == Writer::lamina && xml_.has("CellData/marker"))
-            arrays.markers.emplace(xml_, "CellData/marker", xml_.cells());
+        CellArrays arrays = cell_arrays();
         reserve_cells(mesh_, xml_.cells());
         std::int64_t first = 0;
         for (std::size_t i = 0; i < xml_.cells(); ++i) first = read_cell(i, first, arrays);
         triangles_ = mesh_.triangles.size();
         quads_ = mesh_.quads.size();
-
-        read_cell_array("CellData/region", static_cast<std::size_t>(Region::isotropic), mesh_.region);
-        read_cell_array("CellData/piece", std::numeric_limits<std::uint32_t>::max(), mesh_.piece);
-        read_cell_array("CellData/layer", std::numeric_limits<std::uint16_t>::max(), mesh_.layer);
     }
     struct CellArrays {
         ValuesInOrder<std::uint8_t> types;
@@ -255,6 +274,67 @@ private:
         ValuesInOrder<std::int64_t> connectivity;  ///< the vertices of all cells
         std::optional<ValuesInOrder<std::uint32_t>> markers;  ///< per cell of the file: its marker, from 1, or 0
     };
+    CellArrays cell_arrays() const {
+        CellArrays arrays{{xml_, "Cells/types", xml_.cells()},
+                          {xml_, "Cells/offsets", xml_.cells()},
+                          {xml_, "Cells/connectivity"},
+                          {}};
+        if (writer_ == Writer::lamina && xml_.has("CellData/marker"))
+            arrays.markers.emplace(xml_, "CellData/marker", xml_.cells());
+        return arrays;
+    }
+
+    /// Reads a plane mesh from the copies that the grid holds of it.
+    void read_extrusion() {
+        SpaceMesh space;
+        ValuesInOrder<double> coordinates(xml_, "Points/", 3 * xml_.points());
+        for (std::size_t i = 0; i < xml_.points(); ++i) {
+            space.points.push_back({coordinates[3 * i], coordinates[3 * i + 1]});
+            space.heights.push_back(coordinates[3 * i + 2]);
+            const Point p = space.points.back();
+            if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(space.heights.back()))
+                xml_.fail(fmt::format("point {} is not finite", i));
+        }
+        CellArrays arrays = cell_arrays();
+        std::int64_t first = 0;
+        for (std::size_t i = 0; i < xml_.cells(); ++i) first = read_cell_in_space(i, first, arrays, space);
+        plane_ = plane_of_extrusion(space, mesh_.markers.size(), file_);
+        for (const std::uint32_t node : plane_.nodes) mesh_.points.push_back(space.points[node]);
+        for (const Triangle& triangle : plane_.triangles) mesh_.triangles.push_back(triangle);
+        for (const Quad& quad : plane_.quads) mesh_.quads.push_back(quad);
+        for (std::size_t m = 0; m < mesh_.markers.size(); ++m) mesh_.markers[m].edges = std::move(plane_.edges[m]);
+        std::erase_if(mesh_.markers,
+                      [](const Marker& marker) { return marker.edges.empty(); });  // the ends of the span
+        triangles_ = mesh_.triangles.size();
+        quads_ = mesh_.quads.size();
+    }
+    /// Adds a volume, or a face that is in a marker, whose nodes begin at `first`. Returns where they end.
+    std::int64_t read_cell_in_space(std::size_t i, std::int64_t first, CellArrays& arrays, SpaceMesh& space) {
+        const std::int64_t end = arrays.offsets[i];
+        const std::uint8_t type = arrays.types[i];
+        const std::size_t corners = type == vtk_wedge || type == vtk_triangle ? 3 : 4;
+        const auto expected = static_cast<std::int64_t>(is_volume(type) ? 2 * corners : corners);
+        if (!is_volume(type) && type != vtk_triangle && type != vtk_quad)
+            xml_.fail(fmt::format("cell {} has type {} beside wedges and hexahedra", i, type));
+        if (end < 0 || end - first != expected || static_cast<std::size_t>(end) > arrays.connectivity.size())
+            xml_.fail(fmt::format("cell {} has not the vertices of its type", i));
+        const auto node = [&](std::size_t k) {
+            return static_cast<std::uint32_t>(vertex(arrays.connectivity[static_cast<std::size_t>(first) + k]).index());
+        };
+        if (is_volume(type)) {
+            SpaceMesh::Volume& volume = space.volumes.emplace_back(SpaceMesh::Volume{corners, {}});
+            for (std::size_t k = 0; k < 2 * corners; ++k) volume.nodes[k] = node(k);
+            volume_cells_.push_back(i);
+            return end;
+        }
+        const std::uint32_t marker = arrays.markers ? (*arrays.markers)[i] : 0;
+        if (marker == 0) return end;
+        if (marker > mesh_.markers.size()) xml_.fail(fmt::format("cell {} has a marker without a name", i));
+        SpaceMesh::Face& face = space.faces.emplace_back(SpaceMesh::Face{corners, {}, marker - 1});
+        for (std::size_t k = 0; k < corners; ++k) face.nodes[k] = node(k);
+        return end;
+    }
+
     /// Reads a cell whose vertices begin at `first`, and returns where they end.
     std::int64_t read_cell(std::size_t i, std::int64_t first, CellArrays& arrays) {
         const std::int64_t end = arrays.offsets[i];
@@ -297,6 +377,8 @@ private:
     /// Calls f(i) for the positions of the mesh's cells in the file: the triangles, then the quads.
     template <class F>
     void for_each_cell(F&& f) const {
+        for (const std::uint32_t volume : plane_.volumes) f(volume_cells_[volume]);
+        if (is_in_space_) return;
         for (const auto& [corners, count] : {std::pair{3u, triangles_}, std::pair{4u, quads_}}) {
             if (count == 0) continue;
             ValuesInOrder<std::uint8_t> types(xml_, "Cells/types", xml_.cells());
@@ -322,6 +404,9 @@ private:
     std::filesystem::path file_;
     std::size_t bytes_;  ///< size of the file
     Writer writer_;
+    bool is_in_space_ = false;               ///< whether the grid is a plane mesh in copies
+    PlaneOfExtrusion plane_;                 ///< if so
+    std::vector<std::size_t> volume_cells_;  ///< if so: the places of wedges and hexahedra among the cells of the file
     std::size_t triangles_ = 0, quads_ = 0;  ///< numbers of the mesh's cells, also once the mesh is handed out
     Target mesh_;
     unsigned order_ = 0;                             ///< of all cells; 0 before the first one

@@ -138,7 +138,7 @@ TEST(Streams, WhatOneStreamCannotCarryIsRefused) {
     expect_refused(folder, {"mesh", "naca:0012", "-o", "a.su2", "--background", "-"}, usage, "--background");
     expect_refused(folder, {"check", "-"}, usage, "give --input-format NAME");
     expect_refused(folder, {"check", "-", "--input-format", "openfoam"}, usage, "is not one stream of bytes");
-    expect_refused(folder, {"check", "-", "--input-format", "msh22-extruded"}, usage, "only written");
+    expect_refused(folder, {"check", "-", "--input-format", "mfem"}, usage, "only written");
     expect_refused(folder, {"convert", "-", "a.su2"}, usage, "give --input-format NAME");
     expect_refused(folder, {"convert", "a.su2", "-"}, usage, "give --format NAME");
     expect_refused(folder, {"plot", "a.su2", "-o", "-"}, usage, "give --format NAME");

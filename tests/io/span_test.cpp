@@ -1,12 +1,15 @@
 // Meshes in space: the faces of OpenFOAM's, the volumes of all, and what is refused.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
 #include <map>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <lamina/error.hpp>
@@ -212,6 +215,97 @@ TEST(Span, VtuHoldsAllCells) {
         EXPECT_GT(dot(cross(at(first + 1) - at(first), at(first + 2) - at(first)), at(first + corners / 2) - at(first)),
                   0);
     }
+}
+
+/// The formats that hold meshes in space, with a name that stands for each.
+std::vector<std::pair<std::string, std::string>> formats_in_space() {
+    std::vector<std::pair<std::string, std::string>> formats{
+        {"vtu", "m.vtu"},     {"vtu-zlib", "z.vtu"}, {"msh22-extruded", "m.msh"},
+        {"openfoam", "case"}, {"fun3d", "m.ugrid"},  {"fun3d", "m.b8.ugrid"}};
+    for (const MeshFormat& format : mesh_formats())
+        if (format.name.starts_with("cgns")) formats.emplace_back(format.name, format.name + ".cgns");
+    return formats;
+}
+
+TEST(Span, IsReadBackAsThePlaneMesh) {
+    const TemporaryFolder folder;
+    for (const Mesh& mesh : {annulus({.quads_in_layer = true}), test::shuffled(annulus(), 4), test::box_with_hole()})
+        for (const auto& [format, file] : formats_in_space())
+            for (const auto& [periodic, across] : {std::pair(false, std::size_t{1}), std::pair(true, std::size_t{2}),
+                                                   std::pair(false, std::size_t{5})}) {
+                write_mesh(mesh, folder / file,
+                           {.format = format, .span = 0.3, .span_cells = across, .span_periodic = periodic});
+                const Mesh back = read_mesh(folder / file);
+                EXPECT_EQ(mesh_hash(back), mesh_hash(mesh)) << format << across << periodic;
+                EXPECT_EQ(back.points, mesh.points);
+                EXPECT_EQ(check_mesh(back).valid(), check_mesh(mesh).valid());
+                ASSERT_EQ(back.markers.size(), mesh.markers.size());
+                for (std::size_t m = 0; m < mesh.markers.size(); ++m) {
+                    EXPECT_EQ(back.markers[m].name, mesh.markers[m].name);
+                    EXPECT_EQ(back.markers[m].edges, mesh.markers[m].edges);
+                }
+                const auto cells_of_layer = [](const Mesh& m) {
+                    return std::count(m.region.begin(), m.region.end(), Region::layer);
+                };
+                if (format == "openfoam" || format == "fun3d")
+                    EXPECT_TRUE(back.region.empty());
+                else
+                    EXPECT_EQ(cells_of_layer(back), cells_of_layer(mesh)) << format;
+            }
+}
+
+TEST(Span, PointsThatStandTwiceInTheirPlaceStayApart) {
+    // Both sides of a plate without thickness, from (1, 1) to (2, 1), in a box that it reaches.
+    Mesh mesh;
+    mesh.points = {{0, 0}, {1, 0}, {2, 0}, {0, 1}, {1, 1}, {2, 1}, {0, 2}, {1, 2}, {2, 2}, {2, 1}};
+    const auto quad = [](std::size_t a, std::size_t b, std::size_t c, std::size_t d) {
+        return Quad{{VertexId(a), VertexId(b), VertexId(c), VertexId(d)}};
+    };
+    const auto edge = [](std::size_t a, std::size_t b) { return Segment{VertexId(a), VertexId(b)}; };
+    mesh.quads = {quad(0, 1, 4, 3), quad(1, 2, 5, 4), quad(3, 4, 7, 6), quad(4, 9, 8, 7)};
+    mesh.markers = {{"plate", MarkerKind::wall, {edge(4, 9), edge(5, 4)}},
+                    {"farfield",
+                     MarkerKind::far_field,
+                     {edge(0, 1), edge(1, 2), edge(2, 5), edge(9, 8), edge(8, 7), edge(7, 6), edge(6, 3), edge(3, 0)}}};
+    const TemporaryFolder folder;
+    for (const auto& [format, file] : formats_in_space()) {
+        write_mesh(mesh, folder / file, {.format = format, .span = 0.3, .span_cells = 3});
+        EXPECT_EQ(mesh_hash(read_mesh(folder / file)), mesh_hash(mesh)) << format;
+    }
+}
+
+TEST(Span, CopiesThatDifferAreRefused) {
+    const TemporaryFolder folder;
+    const Mesh mesh = annulus({.around = 4, .rings = 1, .layer_rings = 1, .quads_in_layer = true});
+    write_mesh(mesh, folder / "m.msh", {.format = "msh22-extruded", .span = 2, .span_cells = 2});
+    std::vector<std::string> lines;
+    std::istringstream whole(folder.read("m.msh"));
+    for (std::string line; std::getline(whole, line);) lines.push_back(line);
+    const auto place_of = [&](const std::string& line) {
+        return static_cast<std::size_t>(std::find(lines.begin(), lines.end(), line) - lines.begin());
+    };
+    const auto expect_refused = [&](std::size_t place, const std::string& line, const char* reason) {
+        std::string text;
+        for (std::size_t i = 0; i < lines.size(); ++i) text += (i == place ? line : lines[i]) + '\n';
+        folder.write("damaged.msh", text);
+        try {
+            read_mesh(folder / "damaged.msh");
+            ADD_FAILURE() << reason;
+        } catch (const InputError& error) {
+            EXPECT_NE(std::string(error.what()).find(reason), std::string::npos) << error.what();
+        }
+    };
+    const std::size_t n = mesh.points.size(), nodes = place_of("$Nodes") + 1;
+    const auto node_line = [&](std::size_t node, double lean, int z) {
+        const Point p = mesh.points[(node - 1) % n];
+        return fmt::format("{} {} {} {}", node, p.x + lean, p.y, z);
+    };
+    expect_refused(nodes + 2 * n + 1, node_line(2 * n + 1, 0.01, 2), "straight above");
+    expect_refused(nodes + n + 1, node_line(n + 1, 0, 3), "in the lowest of 4 planes");
+    expect_refused(nodes + n + 1, node_line(n + 1, 0, 0), "in the lowest of 3 planes");
+    // The last volume takes the place of the one before, so that a cell of the upper copy stands twice.
+    const std::size_t end = place_of("$EndElements");
+    expect_refused(end - 2, lines[end - 1], "differ from the lowest ones");
 }
 
 TEST(Span, IsRefusedWhereItCannotBe) {
