@@ -85,7 +85,9 @@ std::optional<Foot> cut_inside(const Geometry& bodies, std::size_t body, const E
     const std::vector<Point>& p = bodies.elements[body].points;
     std::size_t outside = 1;
     while (outside < curve.size() && contains(p, curve[outside])) ++outside;
-    if (outside == curve.size()) refuse_at(sheet, curve[0], "lies inside element " + bodies.elements[body].name);
+    if (outside == curve.size())
+        refuse_at(sheet, curve[0],
+                  "lies inside element " + bodies.elements[body].name + ": move it out, or leave it out");
     const Point from = curve[outside], to = curve[outside - 1];
     double nearest = HUGE_VAL;
     std::optional<Foot> foot;
@@ -130,9 +132,23 @@ void require_outside(const Geometry& bodies, const Foot& foot, const Element& sh
         return dot(wall, along) > 0 && std::abs(cross(wall, along)) < least_sine;
     };
     if (core::inside_wedge(foot.at, after, before, curve[1]))
-        refuse_at(sheet, foot.at, "runs into element " + bodies.elements[foot.element].name);
+        refuse_at(sheet, foot.at, "runs into element " + bodies.elements[foot.element].name + ": end it at the wall");
     if (runs_along(before) || runs_along(after))
-        refuse_at(sheet, foot.at, "runs along the wall of element " + bodies.elements[foot.element].name);
+        refuse_at(
+            sheet, foot.at,
+            "runs along the wall of element " + bodies.elements[foot.element].name + ": turn it away, or leave a gap");
+}
+
+constexpr const char* give_line = "leave a gap, or give one of them as --line NAME:two-sided:..., without layers";
+
+/// Returns what a sheet is to do that crosses or touches an edge of an element.
+std::string crossing_reason(const Element& element, std::size_t edge) {
+    const std::vector<SheetRange> ranges = sheet_ranges(element);
+    const std::size_t n = element.points.size();
+    for (std::size_t k = 0; k < ranges.size(); ++k)
+        if (const std::size_t i = edge < ranges[k].first ? edge + n : edge; i < ranges[k].last)
+            return fmt::format("crosses or touches sheet {}: {}", element.sheets[k].name, give_line);
+    return fmt::format("crosses or touches {}: end it at the wall, or leave a gap", element.name);
 }
 
 /// Throws InputError where a sheet crosses or touches walls or other sheets, but at its foot.
@@ -151,8 +167,7 @@ void require_clear(const Geometry& bodies, const std::optional<Foot>& foot, cons
                 const Point from = curve[k], to = curve[k + 1];
                 if ((k > 0 || !at_foot) && core::segments_meet(from, to, a, b))
                     refuse_at(sheet, from + share_at_crossing(from, to, a, b) * (to - from),
-                              fmt::format("crosses or touches {}: end it at the wall, or leave a gap",
-                                          bodies.elements[e].name));
+                              crossing_reason(bodies.elements[e], i));
             });
         }
     }
@@ -271,7 +286,7 @@ void require_wall_below(const Element& sheet, const Foot& foot, const Element& b
     for (const SheetRange& range : sheet_ranges(body)) {
         const std::size_t n = body.points.size(), edge = foot.edge < range.first ? foot.edge + n : foot.edge;
         if (edge < range.last && (edge > range.first || !foot.at_vertex || is_sheet(body)))
-            refuse_at(sheet, foot.at, "stands on another sheet: give one sheet for both, or leave a gap");
+            refuse_at(sheet, foot.at, fmt::format("stands on another sheet: give one sheet for both, {}", give_line));
     }
 }
 

@@ -173,7 +173,8 @@ private:
     /// below it.
     void collapse_axis() {
         if (extrusion_.cells > 1 || extrusion_.periodic || extrusion_.length != openfoam_span)
-            throw UsageError(file_.string() + ": a mesh with a marker 'axis' becomes a wedge, which has no span");
+            throw UsageError(file_.string() +
+                             ": a mesh with a marker 'axis' becomes a wedge, which has no span: leave --span out");
         std::vector<char> on_axis(mesh_.points.size(), 0);
         for (const Segment& edge : axis_->edges) on_axis[edge.a.index()] = on_axis[edge.b.index()] = 1;
         turned_.resize(mesh_.points.size());

@@ -136,7 +136,8 @@ TEST(Sheets, RefusalsSayWhatHelps) {
     expect(refusal_of({}, {{"a", {{0, 0}, {1, 0}, {0.5, 0}}}}), "runs back on itself");
     expect(refusal_of({}, {{"a", {{0, 0}, {1, 0}, {1, 1}, {0, 0}}}}), "closed curve is a body");
     expect(refusal_of({}, {plate, plate}), "two sheets have this name");
-    expect(refusal_of({}, {plate, {"b", {{0.5, -1}, {0.5, 1}}}}), "crosses or touches plate");
+    expect(refusal_of({}, {plate, {"b", {{0.5, -1}, {0.5, 1}}}}),
+           "crosses or touches sheet plate: leave a gap, or give one of them as --line NAME:two-sided");
     expect(refusal_of({}, {plate, {"b", {{1, 0}, {2, 0}}}}), "stands on another sheet");
     expect(refusal_of({"naca:0012"}, {{"a", {{0.5, -1}, {0.5, 1}}}}), "crosses or touches airfoil");
     expect(refusal_of({"naca:0012"}, {{"a", {{0.3, 0}, {0.6, 0}}}}), "lies inside element airfoil");
