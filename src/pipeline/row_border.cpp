@@ -24,7 +24,7 @@ constexpr double kept_share = 0.35;  ///< of the channel, beside each of its sid
 
 /// Fills columns without outlines, between elements that are one behind the other, with what is on both sides.
 void fill_gaps(geometry::Channel& channel) {
-    for (std::size_t k = 1; k + 1 < columns; ++k) {
+    for (std::size_t k = 1; k + 1 < channel.low.size(); ++k) {
         if (std::isfinite(channel.low[k])) continue;
         std::size_t end = k;
         while (!std::isfinite(channel.low[end])) ++end;
@@ -36,6 +36,22 @@ void fill_gaps(geometry::Channel& channel) {
     }
 }
 
+/// Returns the channel with all outlines wider by so much to both sides along x: the curve may rise steeply beside an
+/// end, and is to keep its distance along x, too.
+geometry::Channel with_wider_outlines(const geometry::Channel& channel, double by) {
+    const auto added = static_cast<std::size_t>(std::ceil(by / channel.width));
+    const std::size_t n = channel.low.size();
+    geometry::Channel wider{channel.left - static_cast<double>(added) * channel.width, channel.width, {}, {}};
+    for (std::size_t k = 0; k < n + 2 * added; ++k) {
+        // Of the channel, the columns from k - 2 added to k are as near as that.
+        const auto first = static_cast<std::ptrdiff_t>(k > 2 * added ? k - 2 * added : 0),
+                   end = static_cast<std::ptrdiff_t>(std::min(k + 1, n));
+        wider.low.push_back(*std::max_element(channel.low.begin() + first, channel.low.begin() + end));
+        wider.high.push_back(*std::min_element(channel.high.begin() + first, channel.high.begin() + end));
+    }
+    return wider;
+}
+
 /// The part of the room between blades where the border may run, in columns; and so many ahead of them and behind,
 /// where nothing is in the way.
 struct Lane {
@@ -44,12 +60,13 @@ struct Lane {
 };
 
 Lane lane_in(const geometry::Channel& channel, double pitch) {
-    const double run = std::min(pitch, static_cast<double>(columns) * channel.width);
+    const std::size_t n = channel.low.size();
+    const double run = std::min(pitch, static_cast<double>(n) * channel.width);
     Lane lane;
     lane.run_out = static_cast<std::size_t>(std::ceil(run / channel.width));
     lane.low.assign(lane.run_out, -HUGE_VAL);
     lane.high.assign(lane.run_out, HUGE_VAL);
-    for (std::size_t k = 0; k < columns; ++k) {
+    for (std::size_t k = 0; k < n; ++k) {
         const double kept = kept_share * (channel.high[k] - channel.low[k]);
         lane.low.push_back(channel.low[k] + kept);
         lane.high.push_back(channel.high[k] - kept);
@@ -66,15 +83,16 @@ std::vector<double> smooth_curve(const Lane& lane, double smoothed_columns) {
     const auto middle = [&](std::size_t k) { return 0.5 * (lane.low[k] + lane.high[k]); };
     std::vector<double> y(n), next(n);
     for (std::size_t k = 0; k < n; ++k) y[k] = middle(std::clamp(k, lane.run_out, n - lane.run_out - 1));
-    // Each round takes the mean of two columns, which smooths over their distance times the square root of the number
-    // of rounds. Shorter distances take away what longer ones leave between columns.
+    // Each round takes the mean of a column and of the mean of two others, which smooths over their distance times the
+    // square root of half the number of rounds. Shorter distances take away what longer ones leave between columns: a
+    // mean of the two alone would leave what changes its sign from column to column.
     for (const std::size_t apart : {8, 4, 2, 1}) {
         const double rounds = smoothed_columns / static_cast<double>(apart);
-        const int count = apart == 8 ? static_cast<int>(rounds * rounds) : 40;
+        const int count = apart == 8 ? static_cast<int>(2 * rounds * rounds) : 40;
         for (int round = 0; round < count; ++round) {
             for (std::size_t k = 0; k < n; ++k) {
-                const double mean = 0.5 * (y[k > apart ? k - apart : 0] + y[std::min(k + apart, n - 1)]);
-                next[k] = std::clamp(mean, lane.low[k], lane.high[k]);
+                const double beside = 0.5 * (y[k > apart ? k - apart : 0] + y[std::min(k + apart, n - 1)]);
+                next[k] = std::clamp(0.5 * (y[k] + beside), lane.low[k], lane.high[k]);
             }
             y.swap(next);
         }
@@ -87,8 +105,9 @@ std::vector<double> smooth_curve(const Lane& lane, double smoothed_columns) {
 std::vector<SizeSource> sources_along(const geometry::Channel& channel, const Lane& lane, std::span<const double> y) {
     constexpr std::size_t columns_apart = 8;
     std::vector<SizeSource> sources;
-    for (std::size_t first = 0; first < columns; first += columns_apart) {
-        const std::size_t last = first + columns_apart - 1;
+    const std::size_t n = channel.low.size();
+    for (std::size_t first = 0; first < n; first += columns_apart) {
+        const std::size_t last = std::min(first + columns_apart, n) - 1;
         double gap = HUGE_VAL;
         for (std::size_t k = first; k <= last; ++k) gap = std::min(gap, channel.high[k] - channel.low[k]);
         const auto at = [&](std::size_t k) { return Point{channel.middle(k), y[k + lane.run_out]}; };
@@ -112,10 +131,14 @@ void add_copies(const decoupling::FarField& far_field, BoxOf&& box_of, Moved&& m
     }
 }
 
+bool is_open(const geometry::Channel& channel) {
+    const std::size_t k = channel.narrowest();
+    return channel.high[k] > channel.low[k];
+}
+
 /// Throws OptionError with this text, which holds x, where a channel is closed.
 void require_open(const geometry::Channel& channel, const char* option, fmt::format_string<double> text) {
-    const std::size_t k = channel.narrowest();
-    if (!(channel.high[k] > channel.low[k])) throw OptionError(option, fmt::format(text, channel.middle(k)));
+    if (!is_open(channel)) throw OptionError(option, fmt::format(text, channel.middle(channel.narrowest())));
 }
 
 }  // namespace
@@ -124,6 +147,7 @@ RowBorder border_below(std::vector<std::vector<Point>> fronts, std::span<const s
                        const decoupling::FarField& far_field) {
     constexpr double smoothed_share = 0.2;  // of the pitch
     constexpr double most_smoothed = 0.3;   // of the columns
+    constexpr double kept_along = 0.02;     // of the pitch, beside the ends of outlines
     const double pitch = far_field.pitch;
     geometry::Channel channel = geometry::channel_below(fronts, pitch, columns);
     fill_gaps(channel);
@@ -132,12 +156,7 @@ RowBorder border_below(std::vector<std::vector<Point>> fronts, std::span<const s
         "the layers of neighbouring blades close the channel between them at x = {:.4g}: raise the pitch, or ask "
         "for thinner layers");
     if (!lines.empty()) {
-        // The curve may rise steeply beside an end, so that keeps its distance along x, too.
-        const double beside = 0.02 * pitch;
-        for (const std::vector<Point>& line : lines) {
-            const auto [left, right] = std::minmax(line.front(), line.back(), lexicographically_less);
-            fronts.push_back({{left.x - beside, left.y}, left, right, {right.x + beside, right.y}});
-        }
+        fronts.insert(fronts.end(), lines.begin(), lines.end());
         channel = geometry::channel_below(fronts, pitch, columns);
         fill_gaps(channel);
         require_open(
@@ -145,6 +164,8 @@ RowBorder border_below(std::vector<std::vector<Point>> fronts, std::span<const s
             "with their copies, one pitch above and below, lines close the channel between blades at x = {:.4g}: "
             "leave a gap there, or move lines by a pitch");
     }
+    if (geometry::Channel wider = with_wider_outlines(channel, kept_along * pitch); is_open(wider))
+        channel = std::move(wider);
     const Lane lane = lane_in(channel, pitch);
     const std::vector<double> y =
         smooth_curve(lane, std::min(smoothed_share * pitch / channel.width, most_smoothed * columns));

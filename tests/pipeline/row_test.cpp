@@ -138,6 +138,23 @@ TEST(BladeRow, HoldsLines) {
     EXPECT_GE(made, 16u);
 }
 
+/// The border neither swings from column to column behind an end of the configuration nor touches the tip that the end
+/// of an element in front of another one is.
+TEST(BladeRow, BordersKeepTheirDistanceFromTips) {
+    const auto expect_good = [](const std::vector<std::string>& files, CaseOptions options, Sheet sheet) {
+        options.conditions.chord = 1;
+        options.layer.enabled = false;
+        options.geometry.sheets = {std::move(sheet)};
+        const MeshResult result = generate_mesh(files, options);
+        expect_periodic(result.mesh, options.far_field.pitch->value);
+        EXPECT_EQ(result.check.isotropic.unexcused(), 0u);
+        EXPECT_LT(result.mesh.triangles.size(), 40'000u);
+    };
+    expect_good({LAMINA_SOURCE_DIR "/examples/geometry/rae2822.dat"}, row(0.47, -14.3, 16.4),
+                {"behind", {{1.093, 0.153}, {0.969, 0.505}}});
+    expect_good({"naca:6412"}, row(0.638, 37.2, 42.2), {"above", {{0.823, 0.059}, {0.951, 0.253}}});
+}
+
 TEST(BladeRow, LinesLeaveAGap) {
     CaseOptions options = row(1);
     options.lines = {{.name = "rake", .points = {{1.5, -0.2}, {1.5, 0.9}}}};
