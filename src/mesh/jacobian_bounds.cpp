@@ -1,17 +1,17 @@
-// Source: A. Johnen, J.-F. Remacle, C. Geuzaine, J. Comput. Phys. 233 (2013); subdivision and products of polynomials
-// in Bernstein's form: G. Farin, Curves and Surfaces for CAGD (2002), chapters 5 and 17; bounds of rounding errors: N.
-// J. Higham, Accuracy and Stability of Numerical Algorithms (2002), chapter 3.
+// Source: A. Johnen, J.-F. Remacle, C. Geuzaine, J. Comput. Phys. 233 (2013); subdivision: G. Farin, Curves and Surfaces
+// for CAGD (2002), chapter 5; bounds of rounding errors: N. J. Higham, Accuracy and Stability of Numerical Algorithms
+// (2002), chapter 3.
 #include "mesh/jacobian_bounds.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <cstdint>
 #include <utility>
 #include <vector>
 
 #include "mesh/cell_lattice.hpp"
+#include "mesh/determinant_rule.hpp"
 
 namespace lamina::mesh {
 
@@ -20,198 +20,6 @@ namespace {
 constexpr int max_halvings = 2 * 12;  // in two directions by turns
 constexpr double rounding_unit = 0x1p-53, for_rounding_of_scale = 0x1p-50;
 constexpr double largest_number = 0x1p1022;  // sums of a coefficient and its error do not overflow
-
-double factorial(unsigned n) { return n < 2 ? 1 : n * factorial(n - 1); }
-double binomial(unsigned n, unsigned k) { return factorial(n) / (factorial(k) * factorial(n - k)); }
-
-// ---- coefficients in one array -------------------------------------------------------------------------------------
-
-/// The coefficients of polynomials on a cell: of degree (n, m) on the square, at [i m' + j] with m' = m + 1, and of
-/// total degree n on the triangle, at the place of (i, j) in rows of ascending j, where the third exponent is n - i -
-/// j.
-struct CoefficientGrid {
-    unsigned corners, n, m;
-
-    std::size_t size() const { return corners == 3 ? std::size_t{n + 1} * (n + 2) / 2 : std::size_t{n + 1} * (m + 1); }
-    std::size_t at(unsigned i, unsigned j) const {
-        if (corners == 4) return std::size_t{i} * (m + 1) + j;
-        return std::size_t{j} * (2 * n + 3 - j) / 2 + i;
-    }
-    /// Calls f(i, j) for all coefficients.
-    template <class F>
-    void for_each(F&& f) const {
-        for (unsigned i = 0; i <= n; ++i)
-            for (unsigned j = 0; j <= (corners == 3 ? n - i : m); ++j) f(i, j);
-    }
-    /// Returns the number of ways to choose so much of so much that weighs the coefficient (i, j).
-    double weight(unsigned i, unsigned j) const {
-        if (corners == 4) return binomial(n, i) * binomial(m, j);
-        return factorial(n) / (factorial(i) * factorial(j) * factorial(n - i - j));
-    }
-};
-
-// ---- rules, which depend on shape and order alone -------------------------------------------------------------------
-
-/// The difference of two Bernstein coefficients of the map, one of its derivative.
-struct Difference {
-    std::size_t plus, minus;
-    double weight;  ///< of the coefficient in products
-};
-
-/// The part of a coefficient of the map that a node has.
-struct NodeFactor {
-    std::size_t node;
-    double value;  ///< a whole number, not 0
-};
-
-/// The part of a coefficient of the determinant that two derivatives have.
-struct ProductTerm {
-    std::uint32_t along, across;  ///< places in the lists of derivatives
-};
-
-/// How nodes become the coefficients of the determinant, but for the factor `scale`.
-struct DeterminantRule {
-    CoefficientGrid grid;  ///< of the determinant
-    unsigned order = 1;
-    std::size_t nodes = 0;
-    std::vector<NodeFactor> to_bernstein;   ///< coefficient by coefficient of the map
-    std::vector<std::size_t> first_factor;  ///< of each coefficient of the map, then the end
-    double largest_row = 0;                 ///< largest sum of the sizes of the factors of a coefficient
-    std::vector<Difference> along, across;
-    std::vector<ProductTerm> terms;       ///< coefficient by coefficient
-    std::vector<std::size_t> first_term;  ///< of each coefficient of the determinant, then the end
-    std::size_t terms_of_one = 0;         ///< largest number of terms of one coefficient
-    std::vector<double> weights;          ///< of the coefficients, which are sums of products over their weight
-    double slope_of_bend = 1;             ///< no derivative of a map with nodes up to 1 has larger coefficients
-    double scale = 1;                     ///< the determinant over what the terms amount to
-    std::vector<std::size_t> corners;     ///< the coefficients that are values at the corners
-};
-
-/// A homogeneous polynomial in three variables of degree d: the coefficient of x^i y^j z^(d-i-j) at [i][j].
-using Homogeneous = std::array<std::array<double, max_cell_order + 1>, max_cell_order + 1>;
-
-/// Returns a polynomial of degree d times (a x + b y + c z).
-Homogeneous times_linear(const Homogeneous& f, unsigned d, double a, double b, double c) {
-    Homogeneous product{};
-    for (unsigned i = 0; i <= d; ++i)
-        for (unsigned j = 0; i + j <= d; ++j) {
-            if (i + 1 <= max_cell_order) product[i + 1][j] += a * f[i][j];
-            if (j + 1 <= max_cell_order) product[i][j + 1] += b * f[i][j];
-            product[i][j] += c * f[i][j];
-        }
-    return product;
-}
-
-/// Returns i! j! k! times Lagrange's polynomial of the node (i, j) of a triangle, in barycentric coordinates, which is
-/// a product of linear factors (p x - r (x + y + z)) and has whole coefficients.
-Homogeneous lagrange_polynomial(unsigned p, unsigned i, unsigned j) {
-    Homogeneous f{};
-    f[0][0] = 1;
-    unsigned degree = 0;
-    const std::array<unsigned, 3> exponents{i, j, p - i - j};
-    for (std::size_t v = 0; v < 3; ++v)
-        for (unsigned r = 0; r < exponents[v]; ++r) {
-            const auto factor = [&](std::size_t w) { return static_cast<double>(w == v ? p : 0) - r; };
-            f = times_linear(f, degree++, factor(0), factor(1), factor(2));
-        }
-    return f;
-}
-
-/// Returns the factor, a whole number, of the node (i, j) of a triangle in (p!)^2 times the Bernstein coefficient (a,
-/// b).
-double triangle_factor(unsigned p, const LatticePlace& node, unsigned a, unsigned b) {
-    const unsigned c = p - a - b, k = p - node.i - node.j;
-    return lagrange_polynomial(p, node.i, node.j)[a][b] * factorial(a) * factorial(b) * factorial(c) *
-           (factorial(p) / (factorial(node.i) * factorial(node.j) * factorial(k)));
-}
-
-/// Returns the factor of a node of a square in (p!)^4 times the Bernstein coefficient (a, b). On an edge of the
-/// triangle its polynomials are those of a segment.
-double square_factor(unsigned p, const LatticePlace& node, unsigned a, unsigned b) {
-    return triangle_factor(p, {node.i, p - node.i}, a, p - a) * triangle_factor(p, {node.j, p - node.j}, b, p - b);
-}
-
-/// Puts lists one behind the other, and says where each begins, and the last one ends.
-template <class T>
-void join_lists(const std::vector<std::vector<T>>& lists, std::vector<T>& joined, std::vector<std::size_t>& first) {
-    first = {0};
-    for (const std::vector<T>& list : lists) {
-        joined.insert(joined.end(), list.begin(), list.end());
-        first.push_back(joined.size());
-    }
-}
-
-void add_conversion(unsigned corners, unsigned p, const CoefficientGrid& map, DeterminantRule& rule) {
-    const std::span<const LatticePlace> lattice = lattice_of_cell(corners, p);
-    rule.nodes = lattice.size();
-    std::vector<std::vector<NodeFactor>> of_coefficients(map.size());
-    map.for_each([&](unsigned a, unsigned b) {
-        double sum = 0;
-        for (std::size_t node = 0; node < rule.nodes; ++node) {
-            const double factor =
-                corners == 3 ? triangle_factor(p, lattice[node], a, b) : square_factor(p, lattice[node], a, b);
-            if (factor != 0) of_coefficients[map.at(a, b)].push_back({node, factor});
-            sum += std::abs(factor);
-        }
-        rule.largest_row = std::max(rule.largest_row, sum);
-    });
-    join_lists(of_coefficients, rule.to_bernstein, rule.first_factor);
-}
-
-/// Adds the derivatives along i and j and what their products amount to. A derivative on the square is of lower degree
-/// in its own direction alone, and on the triangle of lower total degree.
-void add_products(const CoefficientGrid& map, const CoefficientGrid& along, const CoefficientGrid& across,
-                  DeterminantRule& rule) {
-    rule.along.resize(along.size());
-    rule.across.resize(across.size());
-    along.for_each([&](unsigned i, unsigned j) {
-        rule.along[along.at(i, j)] = {map.at(i + 1, j), map.at(i, j), along.weight(i, j)};
-    });
-    across.for_each([&](unsigned i, unsigned j) {
-        rule.across[across.at(i, j)] = {map.at(i, j + 1), map.at(i, j), across.weight(i, j)};
-    });
-    std::vector<std::vector<ProductTerm>> of_coefficients(rule.grid.size());
-    along.for_each([&](unsigned i, unsigned j) {
-        across.for_each([&](unsigned k, unsigned l) {
-            std::vector<ProductTerm>& terms = of_coefficients[rule.grid.at(i + k, j + l)];
-            terms.push_back({static_cast<std::uint32_t>(along.at(i, j)), static_cast<std::uint32_t>(across.at(k, l))});
-            rule.terms_of_one = std::max(rule.terms_of_one, terms.size());
-        });
-    });
-    join_lists(of_coefficients, rule.terms, rule.first_term);
-    rule.weights.resize(rule.grid.size());
-    rule.grid.for_each([&](unsigned i, unsigned j) { rule.weights[rule.grid.at(i, j)] = rule.grid.weight(i, j); });
-}
-
-DeterminantRule make_rule(unsigned corners, unsigned p) {
-    const CoefficientGrid map{corners, p, p};
-    const bool is_triangle = corners == 3;
-    const unsigned degree = is_triangle ? 2 * (p - 1) : 2 * p - 1;
-    DeterminantRule rule;
-    rule.grid = {corners, degree, degree};
-    rule.order = p;
-    add_conversion(corners, p, map, rule);
-    add_products(map, {corners, p - 1, p}, {corners, is_triangle ? p - 1 : p, p - 1}, rule);
-    const double factor = std::pow(factorial(p), is_triangle ? 2 : 4);
-    rule.scale = (p / factor) * (p / factor);
-    rule.slope_of_bend = 2 * p * rule.largest_row / factor;
-    rule.corners = {rule.grid.at(0, 0), rule.grid.at(degree, 0), rule.grid.at(0, degree)};
-    if (!is_triangle) rule.corners.push_back(rule.grid.at(degree, degree));
-    return rule;
-}
-
-using RulesByOrder = std::array<DeterminantRule, max_cell_order + 1>;
-
-RulesByOrder make_rules(unsigned corners) {
-    RulesByOrder rules;
-    for (unsigned p = 1; p <= max_cell_order; ++p) rules[p] = make_rule(corners, p);
-    return rules;
-}
-
-const DeterminantRule& rule_of(unsigned corners, unsigned order) {
-    static const RulesByOrder triangles = make_rules(3), squares = make_rules(4);
-    return (corners == 3 ? triangles : squares)[order];
-}
 
 // ---- coefficients of several cells side by side -----------------------------------------------------------------------
 
@@ -303,10 +111,10 @@ inline void measure_sides(unsigned corners, unsigned p, const std::array<Lanes, 
     sides.bend += 64 * rounding_unit * sides.largest;  // of a dozen operations on numbers up to twice this large
 }
 
-/// Bounds of the determinants of cells from those of the straight cells with the same corners.
-struct StraightBounds {
-    Lanes lower, upper;
-    Lanes error;  ///< what is taken off and added for bends and rounding
+/// Bounds of the determinants of cells from those of simpler ones, such as the straight cells with the same corners.
+struct SimpleBounds {
+    Lanes lower{}, upper{};
+    Lanes error{};  ///< what is taken off and added for what nodes are off the simpler cells, and for rounding
 
     /// Returns whether the bounds of a cell are as good as those by its coefficients.
     bool are_tight(std::size_t lane) const {
@@ -314,10 +122,16 @@ struct StraightBounds {
     }
 };
 
-/// The derivative of what is off the straight cell is at most slope_of_bend times the largest distance, and the
-/// determinant of a straight cell lies between those at its corners.
+/// Adds how much nodes that are off a map change its determinant, where the sizes of both derivatives of x and y amount
+/// to so much: the derivative of what they are off is at most slope_of_bend times the largest distance.
+inline void add_error_of_bend(double slope, const Lanes& x_size, const Lanes& x_bend, const Lanes& y_size,
+                              const Lanes& y_bend, Lanes& error) {
+    error += slope * (x_size * y_bend + y_size * x_bend) + 2 * slope * slope * x_bend * y_bend;
+}
+
+/// The determinant of a straight cell lies between those at its corners.
 inline void bound_straight(unsigned corners, unsigned p, double slope, const JacobianBatch& batch,
-                           StraightBounds& bounds) {
+                           SimpleBounds& bounds) {
     StraightSides x, y;
     measure_sides(corners, p, batch.x, x);
     measure_sides(corners, p, batch.y, y);
@@ -328,9 +142,98 @@ inline void bound_straight(unsigned corners, unsigned p, double slope, const Jac
         raise_to(bounds.upper, determinant);
     }
     constexpr double for_underflow = 1e-290, for_rounding_of_this = 2;
-    const Lanes of_rounding = 64 * rounding_unit * x.largest * y.largest;
-    const Lanes of_bend = slope * (x.largest * y.bend + y.largest * x.bend) + 2 * slope * slope * x.bend * y.bend;
-    bounds.error = for_rounding_of_this * (of_rounding + of_bend) + for_underflow;
+    bounds.error = 64 * rounding_unit * x.largest * y.largest;
+    add_error_of_bend(slope, x.largest, x.bend, y.largest, y.bend, bounds.error);
+    bounds.error = for_rounding_of_this * bounds.error + for_underflow;
+    bounds.lower -= bounds.error;
+    bounds.upper += bounds.error;
+}
+
+/// Bounds the errors of the sums of products x y' - x' y, whose weights amount to 1, so many of each kind in a sum.
+inline void bound_errors(std::size_t terms, const Magnitudes& x, const Magnitudes& y, Lanes& radius) {
+    constexpr double for_rounding_of_this = 1 + 0x1p-20, for_underflow = 1e-290;
+    const Lanes of_factors = 2 * (x.size * y.error + y.size * x.error + x.error * y.error);
+    const Lanes of_products = 2 * x.size * y.size;  // not finite where a product is not
+    const Lanes of_sums = of_products * ((static_cast<double>(terms) + 6) * rounding_unit);
+    radius = for_rounding_of_this * (of_factors + of_sums) + for_underflow;
+}
+
+/// The curves of the edges of cells from the first and the second corner to the ones opposite, as if all nodes between
+/// them were on straight lines from one curve to the other: one coordinate. Coefficients have the factor of CurveRule.
+struct TwoCurves {
+    using Coefficients = std::array<Lanes, max_cell_order + 1>;
+    std::array<Coefficients, 2> slopes;  ///< differences of the coefficients of each, times their weights
+    Coefficients across;                 ///< from the first curve to the second, times their weights
+    Magnitudes largest;                  ///< of both without weights
+    Lanes bend{};                        ///< how far nodes are off the lines, times no factor
+};
+
+inline void measure_curves(const CurveRule& rule, std::span<const LatticePlace> lattice, unsigned p,
+                           const std::array<Lanes, most_nodes>& nodes, TwoCurves& curves) {
+    std::array<std::array<Lanes, max_cell_order + 1>, max_cell_order + 1> local;  // by both steps
+    Lanes largest{};
+    for (std::size_t n = 0; n < lattice.size(); ++n) {
+        Lanes& place = local[lattice[n].i][lattice[n].j];
+        place = nodes[n] - nodes[0];
+        raise_to_size(largest, place);
+    }
+    for (unsigned i = 1; i < p; ++i) {
+        const double share = static_cast<double>(i) / p;
+        for (unsigned j = 0; j <= p; ++j)
+            raise_to_size(curves.bend, local[i][j] - local[0][j] - share * (local[p][j] - local[0][j]));
+    }
+    curves.bend += 64 * rounding_unit * largest;  // of these operations, on numbers up to twice this large
+    std::array<TwoCurves::Coefficients, 2> bernstein;
+    for (std::size_t side = 0; side < 2; ++side)
+        for (unsigned a = 0; a <= p; ++a) {
+            Lanes sum{};
+            for (unsigned node = 0; node <= p; ++node) sum += rule.to_bernstein[a][node] * local[side * p][node];
+            bernstein[side][a] = sum;
+        }
+    for (unsigned a = 0; a <= p; ++a) {
+        curves.across[a] = bernstein[1][a] - bernstein[0][a];
+        raise_to_size(curves.largest.size, curves.across[a]);
+        curves.across[a] *= rule.weights[a];
+        for (std::size_t side = 0; side < 2 && a < p; ++side) {
+            const Lanes slope = bernstein[side][a + 1] - bernstein[side][a];
+            raise_to_size(curves.largest.size, slope);
+            curves.slopes[side][a] = rule.weights_of_derivative[a] * slope;
+        }
+    }
+    const double of_map = (p + 3) * rounding_unit * rule.largest_row;  // as in differentiate()
+    curves.largest.error = 2 * of_map * largest + rounding_unit * curves.largest.size;
+}
+
+/// Bounds the determinants of cells that are linear along their first edges but for rounding, such as those of a layer's
+/// columns: of the degree 1 along these and 2 p - 1 along the others.
+inline void bound_linear(const DeterminantRule& rule, const JacobianBatch& batch, SimpleBounds& bounds) {
+    const unsigned p = rule.order;
+    const std::span<const LatticePlace> lattice = lattice_of_cell(4, p);
+    TwoCurves x, y;
+    measure_curves(rule.curve, lattice, p, batch.x, x);
+    measure_curves(rule.curve, lattice, p, batch.y, y);
+    for (std::size_t side = 0; side < 2; ++side) {
+        std::array<Lanes, std::size_t{2} * max_cell_order> sums{};
+        for (unsigned a = 0; a <= p; ++a)
+            for (unsigned b = 0; b < p; ++b)
+                sums[a + b] += x.across[a] * y.slopes[side][b] - y.across[a] * x.slopes[side][b];
+        for (unsigned k = 0; k < 2 * p; ++k) {
+            const Lanes determinant = sums[k] / rule.curve.weights_of_product[k];
+            if (side + k == 0) bounds.lower = bounds.upper = determinant;
+            lower_to(bounds.lower, determinant);
+            raise_to(bounds.upper, determinant);
+        }
+    }
+    constexpr double for_rounding_of_this = 2;
+    const double scale = p / (rule.curve.factor * rule.curve.factor), of_size = (p + 1) / rule.curve.factor;
+    bound_errors(p, x.largest, y.largest, bounds.error);
+    bounds.lower *= scale;
+    bounds.upper *= scale;
+    bounds.error *= scale;
+    const Lanes x_size = of_size * (x.largest.size + x.largest.error),
+                y_size = of_size * (y.largest.size + y.largest.error);
+    add_error_of_bend(rule.slope_of_bend, x_size, x.bend, y_size, y.bend, bounds.error);
+    bounds.error = for_rounding_of_this * bounds.error + for_rounding_of_scale * bounds.upper;
     bounds.lower -= bounds.error;
     bounds.upper += bounds.error;
 }
@@ -341,23 +244,20 @@ struct Determinants {
     Lanes radius;             ///< each coefficient is within this of the exact one
     Lanes smallest, largest;  ///< of the coefficients
     Lanes sum;                ///< of their sizes; not finite where one of them is not
-    StraightBounds straight;  ///< where all cells are as good as straight, there is nothing else
-};
+    SimpleBounds straight;    ///< where all cells are as good as straight, there is nothing else
+    SimpleBounds linear;      ///< likewise for quadrilaterals that are linear in one direction
 
-/// Bounds the errors of the sums of products x y' - x' y, whose weights amount to 1.
-inline void bound_errors(const DeterminantRule& rule, const Magnitudes& x, const Magnitudes& y, Lanes& radius) {
-    constexpr double for_rounding_of_this = 1 + 0x1p-20, for_underflow = 1e-290;
-    const Lanes of_factors = 2 * (x.size * y.error + y.size * x.error + x.error * y.error);
-    const Lanes of_products = 2 * x.size * y.size;  // not finite where a product is not
-    const Lanes of_sums = of_products * ((static_cast<double>(rule.terms_of_one) + 6) * rounding_unit);
-    radius = for_rounding_of_this * (of_factors + of_sums) + for_underflow;
-}
+    /// Returns the bounds of a simpler cell that are as good as those by all coefficients, or null.
+    const SimpleBounds* tight(std::size_t lane) const {
+        return straight.are_tight(lane) ? &straight : linear.are_tight(lane) ? &linear : nullptr;
+    }
+};
 
 inline void bound_coefficients(const DeterminantRule& rule, const JacobianBatch& batch, Determinants& determinants) {
     Derivatives x, y;
     differentiate(rule, batch.x, x);
     differentiate(rule, batch.y, y);
-    bound_errors(rule, x.largest, y.largest, determinants.radius);
+    bound_errors(rule.terms_of_one, x.largest, y.largest, determinants.radius);
     const std::size_t n = rule.grid.size();
     for (std::size_t c = 0; c < n; ++c) {
         Lanes sum{};
@@ -379,12 +279,21 @@ inline void bound_coefficients(const DeterminantRule& rule, const JacobianBatch&
     }
 }
 
-/// Bounds the determinants of straight cells by their corners, and those of others by their coefficients.
+/// Bounds the determinants of straight cells by their corners, those of quadrilaterals that are linear in one direction
+/// by the curves on both sides, and those of others by all coefficients.
 inline void bound_lanes(const DeterminantRule& rule, const JacobianBatch& batch, Determinants& determinants) {
     bound_straight(rule.grid.corners, rule.order, rule.slope_of_bend, batch, determinants.straight);
-    std::size_t tight = 0;
-    while (tight < batch.size && determinants.straight.are_tight(tight)) ++tight;
-    if (tight < batch.size) bound_coefficients(rule, batch, determinants);
+    const auto are_tight = [&] {
+        std::size_t tight = 0;
+        while (tight < batch.size && determinants.tight(tight) != nullptr) ++tight;
+        return tight == batch.size;
+    };
+    if (are_tight()) return;
+    if (rule.grid.corners == 4) {
+        bound_linear(rule, batch, determinants.linear);
+        if (are_tight()) return;
+    }
+    bound_coefficients(rule, batch, determinants);
 }
 
 [[gnu::flatten]] void bound_all(const DeterminantRule& rule, const JacobianBatch& batch, Determinants& determinants) {
@@ -506,8 +415,8 @@ JacobianBounds bound_by_halving(const DeterminantRule& rule, Part part, double u
 
 /// Returns the bounds of one of the cells.
 JacobianBounds bounds_of(const DeterminantRule& rule, const Determinants& determinants, std::size_t lane) {
-    const StraightBounds& straight = determinants.straight;
-    if (straight.are_tight(lane)) return {CellVerdict::valid, straight.lower[lane], straight.upper[lane]};
+    if (const SimpleBounds* simple = determinants.tight(lane); simple != nullptr)
+        return {CellVerdict::valid, simple->lower[lane], simple->upper[lane]};
     const double radius = determinants.radius[lane], lower = determinants.smallest[lane] - radius;
     if (!(radius < largest_number && determinants.sum[lane] < largest_number))
         return {CellVerdict::unproved, 0, HUGE_VAL};
@@ -523,7 +432,7 @@ JacobianBounds bounds_of(const DeterminantRule& rule, const Determinants& determ
 
 std::array<JacobianBounds, JacobianBatch::capacity> bound_jacobians(unsigned corners, unsigned order,
                                                                     const JacobianBatch& batch) {
-    const DeterminantRule& rule = rule_of(corners, order);
+    const DeterminantRule& rule = determinant_rule(corners, order);
     Determinants determinants;
     (has_avx2() ? bound_all_avx2 : bound_all)(rule, batch, determinants);
     std::array<JacobianBounds, JacobianBatch::capacity> bounds;

@@ -245,6 +245,60 @@ TEST(JacobianBounds, AreThoseOfTheCornersForStraightCells) {
     }
 }
 
+/// Returns the nodes of a quadrilateral, each corner named after the one before: it is the same cell.
+std::vector<Point> turned_quad(unsigned p, const std::vector<Point>& nodes) {
+    const std::span<const LatticePlace> lattice = lattice_of_cell(4, p);
+    std::vector<Point> turned;
+    for (const LatticePlace& place : lattice) {
+        const auto from = std::find_if(lattice.begin(), lattice.end(), [&](const LatticePlace& other) {
+            return other.i == place.j && other.j == p - place.i;
+        });
+        turned.push_back(nodes[static_cast<std::size_t>(from - lattice.begin())]);
+    }
+    return turned;
+}
+
+TEST(JacobianBounds, OfCellsLinearInOneDirectionAreThoseOfAllCoefficients) {
+    // Two curves with straight lines from one to the other, as in the columns of a layer. Turned by a corner, the cell is
+    // linear along the edges whose curves are not looked at alone.
+    core::Random random(11);
+    std::size_t valid = 0, otherwise = 0;
+    for (int round = 0; round < 300; ++round)
+        for (unsigned p = 2; p <= max_cell_order; ++p) {
+            const double height = std::pow(10, random.real(-5, 0)), angle = random.real(0, 7),
+                         bend = random.real(0, 0.5);
+            const double grown = random.real(0.5, 1.5), lean = random.real(-0.3, 0.3);
+            const double c = std::cos(angle), s = std::sin(angle);
+            std::array<double, max_cell_order + 1> off{};
+            for (unsigned k = 1; k < p; ++k) off[k] = bend * random.real(-1, 1) / p;
+            std::vector<Point> nodes;
+            for (const auto [i, j] : lattice_of_cell(4, p)) {
+                // From the wall at i = 0 on, as fill.cpp lists corners: up, along, down.
+                const double up = static_cast<double>(i) / p, along = static_cast<double>(j) / p;
+                const double share = 1 - 0.3 * up * (1 - along + grown * along);
+                const double x = -along + lean * height * up,
+                             y = height * up * (1 - along + grown * along) + share * off[j];
+                nodes.push_back({3 + c * x - s * y, 2 + s * x + c * y});
+            }
+            const JacobianBounds linear = bound_jacobian(4, p, nodes),
+                                 full = bound_jacobian(4, p, turned_quad(p, nodes));
+            ASSERT_EQ(linear.verdict, full.verdict);
+            if (full.verdict != CellVerdict::valid) continue;
+            ++valid;
+            otherwise += linear.lower != full.lower;
+            EXPECT_NEAR(linear.lower, full.lower, 1e-6 * full.lower);
+            EXPECT_NEAR(linear.upper, full.upper, 1e-6 * full.upper);
+            std::vector<Coordinates<double>> places;
+            for (const Point at : nodes) places.push_back({at.x, at.y});
+            sample_determinant(4, p, places, 12, [&](double value) {
+                EXPECT_GE(value, linear.lower * (1 - 1e-9) - 1e-14);
+                EXPECT_LE(value, linear.upper * (1 + 1e-9) + 1e-14);
+            });
+        }
+    EXPECT_GT(valid, 400u);
+    EXPECT_GT(otherwise, 400u);  // another route, which rounds in another way
+}
+
 TEST(JacobianBounds, KnowInvalidCells) {
     for (const unsigned corners : every_shape)
         for (unsigned p = 1; p <= max_cell_order; ++p) {
