@@ -19,6 +19,7 @@
 
 #include "core/parallel.hpp"
 #include "mesh/curved_nodes.hpp"
+#include "mesh/jacobian_bounds.hpp"
 #include "mesh/prove_cells.hpp"
 
 namespace lamina::mesh {
@@ -430,12 +431,22 @@ std::vector<BentColumn> bent_columns(const MeshView& mesh, const ColumnSearch& s
     return columns;
 }
 
-/// Returns the columns that bend a doubtful cell, ascending.
-std::vector<std::uint32_t> columns_at_fault(const CellProofs& proofs, const NodePlacer& placer,
+/// Returns the scaled determinant of a straight cell.
+double straight_scaled(const MeshView& mesh, std::size_t cell) {
+    const CellEdges cells(mesh);
+    std::vector<Point> corners;
+    for (std::size_t i = 0; i < cells.corners(cell); ++i) corners.push_back(mesh.points[cells.corner(cell, i).index()]);
+    return bound_jacobian(static_cast<unsigned>(corners.size()), 1, corners).scaled();
+}
+
+/// Returns the columns that squeeze a cell to less than half of what it is when straight, ascending. Doubtful cells are
+/// among these.
+std::vector<std::uint32_t> columns_at_fault(const MeshView& mesh, const CellProofs& proofs, const NodePlacer& placer,
                                             const Adjacency& adjacency) {
     std::vector<std::uint32_t> at_fault;
-    for (const DoubtfulCell& doubtful : proofs.doubtful)
-        placer.for_each_column(doubtful.cell, adjacency, [&](std::uint32_t c) { at_fault.push_back(c); });
+    for (const SqueezedCell& squeezed : proofs.squeezed)
+        if (squeezed.scaled < 0.5 * straight_scaled(mesh, squeezed.cell))
+            placer.for_each_column(squeezed.cell, adjacency, [&](std::uint32_t c) { at_fault.push_back(c); });
     std::sort(at_fault.begin(), at_fault.end());
     at_fault.erase(std::unique(at_fault.begin(), at_fault.end()), at_fault.end());
     return at_fault;
@@ -479,22 +490,21 @@ CurvedCells curve_cells(const MeshView& mesh, unsigned order, std::span<const Wa
         placer.place_edges(adjacency, curved.nodes.points);
         placer.place_within_cells(curved.nodes.points);
         const CellProofs proofs = prove_cells(mesh, curved.nodes);
-        if (proofs.doubtful.empty()) {
-            curved.check = check_of(mesh, proofs);
-            break;
-        }
-        std::vector<std::uint32_t> at_fault = columns_at_fault(proofs, placer, adjacency);
+        std::vector<std::uint32_t> at_fault = columns_at_fault(mesh, proofs, placer, adjacency);
         std::erase_if(at_fault, [&](std::uint32_t c) { return halvings[c] == max_halvings_of_bend; });
         if (at_fault.empty()) {
-            const CurvedCheck check = check_of(mesh, proofs);
-            throw MeshError(fmt::format("the cells of order {} are not valid: {}", order, check.defects[0].description),
-                            check.defects[0].at);
+            curved.check = check_of(mesh, proofs);
+            break;
         }
         for (const std::uint32_t c : at_fault) {
             const double share = ++halvings[c] == max_halvings_of_bend ? 0 : std::ldexp(1.0, -halvings[c]);
             set_bend(columns[c], mesh, walls[c], order, share);
         }
     }
+    if (!curved.check.valid())
+        throw MeshError(
+            fmt::format("the cells of order {} are not valid: {}", order, curved.check.defects[0].description),
+            curved.check.defects[0].at);
     curved.summary = summary_of(mesh, walls, columns, halvings, order);
     return curved;
 }

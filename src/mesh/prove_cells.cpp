@@ -19,6 +19,7 @@ void add_proof(std::size_t cell, const JacobianBounds& bounds, CellProofs& proof
         proofs.doubtful.push_back({static_cast<std::uint32_t>(cell), bounds.verdict == CellVerdict::invalid});
     const double scaled = bounds.scaled();
     assert(scaled >= 0 && scaled <= 1);
+    if (scaled < least_scaled_determinant) proofs.squeezed.push_back({static_cast<std::uint32_t>(cell), scaled});
     ++proofs.histogram[std::min(static_cast<std::size_t>(scaled * CellProofs::bins), CellProofs::bins - 1)];
     if (scaled >= proofs.min_scaled) return;
     proofs.min_scaled = scaled;
@@ -27,6 +28,7 @@ void add_proof(std::size_t cell, const JacobianBounds& bounds, CellProofs& proof
 
 void append_proofs(const CellProofs& block, CellProofs& all) {
     all.doubtful.insert(all.doubtful.end(), block.doubtful.begin(), block.doubtful.end());
+    all.squeezed.insert(all.squeezed.end(), block.squeezed.begin(), block.squeezed.end());
     for (std::size_t i = 0; i < CellProofs::bins; ++i) all.histogram[i] += block.histogram[i];
     if (block.min_scaled >= all.min_scaled) return;
     all.min_scaled = block.min_scaled;

@@ -16,11 +16,21 @@ struct DoubtfulCell {
     bool is_invalid;
 };
 
+/// A cell whose scaled determinant is below least_scaled_determinant.
+struct SqueezedCell {
+    std::uint32_t cell;  ///< triangles, then quadrilaterals
+    double scaled;       ///< 0 for doubtful cells
+};
+
+/// A smaller ratio of determinants is worth less bend: curve_cells() leaves it only where straight cells are that bad.
+inline constexpr double least_scaled_determinant = 0.02;
+
 /// What is proved of the cells of a mesh, or of a part of them.
 struct CellProofs {
     static constexpr std::size_t bins = 100;
 
     std::vector<DoubtfulCell> doubtful;         ///< ascending
+    std::vector<SqueezedCell> squeezed;         ///< ascending
     double min_scaled = HUGE_VAL;               ///< smallest scaled determinant
     std::uint32_t worst = 0;                    ///< the cell that has it
     std::array<std::size_t, bins> histogram{};  ///< of scaled determinants

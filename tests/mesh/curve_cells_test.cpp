@@ -105,20 +105,39 @@ TEST(CurveCells, OfThinColumnsFollowTheWall) {
             }
 }
 
+/// Makes the curve of the first edge of a ring bend by so much.
+void bend_first_wall(Ring& ring, double height) {
+    double share = 0;
+    for (Point& p : ring.walls[0].between) {
+        share += 1.0 / static_cast<double>(ring.walls[0].between.size() + 1);
+        p = (1 + 4 * height * share * (1 - share)) * p;
+    }
+}
+
 TEST(CurveCells, BendLessWhereTheyWouldFold) {
     // The curve of one edge is as high as five columns.
     Ring ring = make_ring(true, 3, 3);
-    double share = 0;
-    for (Point& p : ring.walls[0].between) {
-        share += 1.0 / 6;
-        p = (1 + 4 * share * (1 - share)) * p;
-    }
+    bend_first_wall(ring, 1);
     const CurvedCells curved = curve_cells(ring.mesh, 3, ring.walls, {ring.columns});
     EXPECT_TRUE(check_curved(ring.mesh, curved.nodes).valid());
     EXPECT_EQ(curved.summary.reduced_edges, 1u);
     EXPECT_EQ(curved.summary.curved_edges, columns_of_ring - 1);
     EXPECT_GT(curved.summary.reduced_distance, 0.1);
     EXPECT_LT(curved.summary.wall_distance, 1e-4);
+}
+
+TEST(CurveCells, BendLessWhereTheyWouldBeSqueezed) {
+    std::size_t reduced = 0;
+    for (const bool of_quads : {true, false})
+        for (int step = 0; step <= 60; ++step) {
+            Ring ring = make_ring(of_quads, 2, 3);
+            bend_first_wall(ring, 0.01 * step);
+            const CurvedCells curved = curve_cells(ring.mesh, 2, ring.walls, {ring.columns});
+            EXPECT_GE(curved.check.min_scaled_jacobian, 0.02) << step;
+            reduced += curved.summary.reduced_edges;
+        }
+    EXPECT_GT(reduced, 20u);
+    EXPECT_LT(reduced, 100u);
 }
 
 }  // namespace
