@@ -86,17 +86,30 @@ bool separate_nodes(CurvedMesh& curved) {
     return is_apart;
 }
 
-std::vector<std::size_t> vtk_order_of_quad(unsigned order) {
-    const std::span<const mesh::LatticePlace> lattice = mesh::lattice_of_cell(4, order);
+std::vector<std::uint32_t> edges_as_first_met(const MeshView& mesh, const mesh::Adjacency& adjacency) {
+    std::vector<std::uint32_t> edges;
+    edges.reserve(adjacency.edges);
+    for (std::uint32_t e = 0; e < mesh::CellEdges(mesh).size(); ++e)
+        if (adjacency.twin[e] == mesh::no_edge || e < adjacency.twin[e]) edges.push_back(e);
+    return edges;
+}
+
+std::vector<std::size_t> rows_of_nodes(unsigned corners, unsigned order, std::size_t first) {
+    const std::span<const mesh::LatticePlace> lattice = mesh::lattice_of_cell(corners, order);
     std::vector<std::size_t> places(lattice.size());
     std::iota(places.begin(), places.end(), std::size_t{0});
-    const std::ptrdiff_t between = static_cast<std::ptrdiff_t>(order) - 1;  // nodes of an edge beside its ends
-    const auto begin = places.begin() + 4 + 2 * between, inner = begin + 2 * between;
-    std::reverse(begin, begin + between);
-    std::reverse(begin + between, inner);
-    std::sort(inner, places.end(), [&](std::size_t a, std::size_t b) {
+    std::sort(places.begin() + static_cast<std::ptrdiff_t>(first), places.end(), [&](std::size_t a, std::size_t b) {
         return std::pair(lattice[a].j, lattice[a].i) < std::pair(lattice[b].j, lattice[b].i);
     });
+    return places;
+}
+
+std::vector<std::size_t> vtk_order_of_quad(unsigned order) {
+    std::vector<std::size_t> places = rows_of_nodes(4, order, std::size_t{4} * order);
+    const std::ptrdiff_t between = static_cast<std::ptrdiff_t>(order) - 1;  // nodes of an edge beside its ends
+    const auto begin = places.begin() + 4 + 2 * between;
+    std::reverse(begin, begin + between);
+    std::reverse(begin + between, begin + 2 * between);
     return places;
 }
 

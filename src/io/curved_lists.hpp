@@ -2,10 +2,13 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include <lamina/curved_mesh.hpp>
+
+#include "mesh/adjacency.hpp"
 
 namespace lamina::io {
 
@@ -28,5 +31,12 @@ bool orient_and_separate(CurvedMesh& mesh);
 /// along the last two edges from their far ends, and through the inner nodes row by row. Lines and triangles have one
 /// order in both. Source: VTK, vtkHigherOrderQuadrilateral.
 std::vector<std::size_t> vtk_order_of_quad(unsigned order);
+
+/// Returns the directed edges that no cell before theirs has, ascending: cells number their edges so as they are met.
+std::vector<std::uint32_t> edges_as_first_met(const MeshView& mesh, const mesh::Adjacency& adjacency);
+
+/// Returns the places of the nodes of a cell with 3 or 4 corners in the order of CurvedNodes, where those from `first`
+/// on are sorted by their rows, of which the first edge is the first one.
+std::vector<std::size_t> rows_of_nodes(unsigned corners, unsigned order, std::size_t first);
 
 }  // namespace lamina::io

@@ -59,11 +59,14 @@ void write_straight_msh(const MeshView& mesh, const fs::path& file, const WriteO
     write_curved_msh<version_4, binary>(mesh, {}, file, options);
 }
 
-void write_curved_mfem(const MeshView& mesh, const CurvedNodes& nodes, const fs::path& file, const WriteOptions&) {
-    core::write_stream_atomically(file, [&](std::ostream& out) { write_mfem(mesh, nodes, file, out); });
+/// Writes one file by a function that writes curved cells to a stream.
+template <auto write_to_stream>
+void write_one_curved_file(const MeshView& mesh, const CurvedNodes& nodes, const fs::path& file, const WriteOptions&) {
+    core::write_stream_atomically(file, [&](std::ostream& out) { write_to_stream(mesh, nodes, file, out); });
 }
-void write_straight_mfem(const MeshView& mesh, const fs::path& file, const WriteOptions& options) {
-    write_curved_mfem(mesh, {}, file, options);
+template <auto write_to_stream>
+void write_one_straight_file(const MeshView& mesh, const fs::path& file, const WriteOptions& options) {
+    write_one_curved_file<write_to_stream>(mesh, {}, file, options);
 }
 
 template <bool compressed>
@@ -277,10 +280,21 @@ FormatRow mfem_row() {
     return {.name = "mfem",
             .extensions = {".mesh"},
             .description = "MFEM mesh 1.0, ASCII",
-            .write = write_straight_mfem,
+            .write = write_one_straight_file<write_mfem>,
             .files = one_file,
-            .write_curved = write_curved_mfem,
+            .write_curved = write_one_curved_file<write_mfem>,
             .one_stream = true};
+}
+
+FormatRow nektar_row() {
+    return {.name = "nektar",
+            .extensions = {".xml"},
+            .description = "Nektar++ geometry, XML",
+            .write = write_one_straight_file<write_nektar>,
+            .files = one_file,
+            .write_curved = write_one_curved_file<write_nektar>,
+            .one_stream = true,
+            .internal_markers = true};
 }
 
 FormatRow triangle_row() {
@@ -305,6 +319,7 @@ std::vector<FormatRow> make_table() {
     add(fluent_rows());
     add({triangle_row()});
     add({mfem_row()});
+    add({nektar_row()});
     return table;
 }
 
@@ -329,15 +344,16 @@ void refuse_missing_cgns(const fs::path& file, const std::string& name, const st
 
 /// Returns a name of ours for what other programs call a format, or the closest name that is known.
 std::string meant_format(const std::string& name, const std::vector<std::string>& names) {
-    static constexpr std::array<std::pair<const char*, const char*>, 9> other_names{{{"gmsh", "msh41"},
-                                                                                     {"gmsh2", "msh22"},
-                                                                                     {"gmsh4", "msh41"},
-                                                                                     {"vtk", "vtu"},
-                                                                                     {"paraview", "vtu"},
-                                                                                     {"foam", "openfoam"},
-                                                                                     {"hdf5", "cgns"},
-                                                                                     {"aflr", "ugrid"},
-                                                                                     {"ansys", "fluent"}}};
+    static constexpr std::array<std::pair<const char*, const char*>, 10> other_names{{{"gmsh", "msh41"},
+                                                                                      {"gmsh2", "msh22"},
+                                                                                      {"gmsh4", "msh41"},
+                                                                                      {"vtk", "vtu"},
+                                                                                      {"paraview", "vtu"},
+                                                                                      {"foam", "openfoam"},
+                                                                                      {"hdf5", "cgns"},
+                                                                                      {"aflr", "ugrid"},
+                                                                                      {"ansys", "fluent"},
+                                                                                      {"nektar++", "nektar"}}};
     for (const auto& [other, ours] : other_names)
         if (core::lower_case(name) == other) return ours;
     return closest_word(name, names);

@@ -135,6 +135,8 @@ void write_msh(const MeshView& mesh, const CurvedNodes& nodes, const std::filesy
                std::ostream& out);
 /// Writes a mesh with straight or curved cells in the format of MFEM.
 void write_mfem(const MeshView& mesh, const CurvedNodes& nodes, const std::filesystem::path& file, std::ostream& out);
+/// Writes a mesh with straight or curved cells in the format of Nektar++.
+void write_nektar(const MeshView& mesh, const CurvedNodes& nodes, const std::filesystem::path& file, std::ostream& out);
 /// Writes version 2.2, ASCII, in space.
 void write_msh_extruded(const MeshView& mesh, const std::filesystem::path& file, const Extrusion& extrusion,
                         std::ostream& out);

@@ -9,11 +9,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "io/curved_lists.hpp"
 #include "io/formats.hpp"
 #include "io/mesh_parts.hpp"
 #include "io/text_output.hpp"
@@ -24,29 +24,6 @@ namespace lamina::io {
 namespace {
 
 enum MfemGeometry : std::size_t { mfem_segment = 1, mfem_triangle = 2, mfem_square = 3 };
-
-/// Returns the directed edges that their cell has before any other one does.
-std::vector<std::uint32_t> first_edges(const MeshView& mesh) {
-    const mesh::Adjacency adjacency = mesh::find_adjacency(mesh);
-    std::vector<std::uint32_t> edges;
-    edges.reserve(adjacency.edges);
-    for (std::uint32_t e = 0; e < mesh::CellEdges(mesh).size(); ++e)
-        if (adjacency.twin[e] == mesh::no_edge || e < adjacency.twin[e]) edges.push_back(e);
-    return edges;
-}
-
-/// Returns the places of the nodes within a cell, counted behind those of its border, row by row.
-std::vector<std::size_t> rows_within(unsigned corners, unsigned order) {
-    const std::span<const mesh::LatticePlace> lattice = mesh::lattice_of_cell(corners, order);
-    const std::size_t border = std::size_t{corners} * order;
-    std::vector<std::size_t> places(lattice.size() - border);
-    std::iota(places.begin(), places.end(), std::size_t{0});
-    std::sort(places.begin(), places.end(), [&](std::size_t a, std::size_t b) {
-        const mesh::LatticePlace &first = lattice[border + a], &second = lattice[border + b];
-        return std::pair(first.j, first.i) < std::pair(second.j, second.i);
-    });
-    return places;
-}
 
 class MfemWriter {
 public:
@@ -108,7 +85,7 @@ private:
         write_nodes_of_cells();
     }
     void write_nodes_of_edges() {
-        const std::vector<std::uint32_t> edges = first_edges(mesh_);
+        const std::vector<std::uint32_t> edges = edges_as_first_met(mesh_, mesh::find_adjacency(mesh_));
         const std::size_t within = nodes_.order - 1;
         write_lines(out_, edges.size() * within, [&](LineText& line, std::size_t i) {
             const std::size_t edge = edges[i / within], cell = cells_.cell_of(edge), k = i % within;
@@ -120,10 +97,11 @@ private:
         std::size_t first = 0;
         for (const auto& [corners, cells] :
              {std::pair(3u, mesh_.triangles.size()), std::pair(4u, mesh_.quads.size())}) {
-            const std::vector<std::size_t> rows = rows_within(corners, nodes_.order);
-            const std::size_t border = std::size_t{corners} * (nodes_.order - 1);
-            write_lines(out_, cells * rows.size(), [&](LineText& line, std::size_t i) {
-                line << node(first + i / rows.size(), border + rows[i % rows.size()]);
+            const std::size_t border = std::size_t{corners} * nodes_.order;
+            const std::vector<std::size_t> rows = rows_of_nodes(corners, nodes_.order, border);
+            const std::size_t within = rows.size() - border;
+            write_lines(out_, cells * within, [&](LineText& line, std::size_t i) {
+                line << node(first + i / within, rows[border + i % within] - corners);
             });
             first += cells;
         }

@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <functional>
-#include <map>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -14,9 +12,7 @@
 #include <lamina/io.hpp>
 #include <lamina/stream.hpp>
 
-#include "mesh/curved_nodes.hpp"
 #include "pipeline/cases.hpp"
-#include "support/temporary_folder.hpp"
 #include "surface/spacing_limits.hpp"
 
 namespace lamina::test {
@@ -327,95 +323,6 @@ TEST(CurvedCells, KeepCornersAndBasesAndPointsGiven) {
     EXPECT_EQ(curved.curving.curved_edges, wall_edges(curved.mesh));
     EXPECT_LT(largest_distance_of_nodes(curved, curves_of(naca("0012", 200))), 1e-14);
     EXPECT_LT(wall_error(curved, distance_from_naca_0012), 0.1 * wall_error(kept, distance_from_naca_0012));
-}
-
-TEST(CurvedCells, AreReadBackFromFiles) {
-    const TemporaryFolder folder;
-    for (const LayerTopology topology : {LayerTopology::quads, LayerTopology::layered})
-        for (unsigned order = 2; order <= max_cell_order; ++order) {
-            CaseOptions options = curved_options(order, topology);
-            options.layer.layers = 5;
-            options.far_field.size = 3;
-            options.sizing.gradation = 0.4;
-            const MeshResult result = generate_mesh({"naca:0012"}, options);
-            for (const std::string format : {"msh41", "msh41-binary", "msh22", "msh22-binary", "vtu", "vtu-zlib"}) {
-                const std::filesystem::path file = folder.path() / ("curved." + format.substr(0, 3));
-                write_curved_mesh(result.mesh, result.curved, file, {.format = format});
-                const CurvedMesh read = read_curved_mesh(file);
-                EXPECT_EQ(mesh_hash(read.mesh), mesh_hash(result.mesh));
-                EXPECT_EQ(read.nodes.order, order);
-                EXPECT_EQ(read.nodes.points, result.curved.points);
-                EXPECT_EQ(read.nodes.triangle_nodes, result.curved.triangle_nodes);
-                EXPECT_EQ(read.nodes.quad_nodes, result.curved.quad_nodes);
-                EXPECT_TRUE(check_mesh(read.mesh).valid());
-                EXPECT_TRUE(check_curved(read.mesh, read.nodes).valid());
-                EXPECT_THROW(read_mesh(file), InputError);
-            }
-        }
-}
-
-TEST(CurvedCells, AreWrittenAsMfemNumbersTheirNodes) {
-    const TemporaryFolder folder;
-    for (unsigned order = 2; order <= max_cell_order; ++order) {
-        CaseOptions options = curved_options(order);
-        options.layer.layers = 5;
-        options.far_field.size = 3;
-        options.sizing.gradation = 0.4;
-        const MeshResult result = generate_mesh({"naca:0012"}, options);
-        const Mesh& mesh = result.mesh;
-        const std::filesystem::path file = folder.path() / "curved.mesh";
-        write_curved_mesh(mesh, result.curved, file);
-        std::ifstream in(file);
-        std::string word;
-        const auto skip_to = [&](const std::string& section) {
-            while (word != section && in >> word) continue;
-            ASSERT_EQ(word, section);
-        };
-        std::size_t count = 0;
-        skip_to("elements");
-        in >> count;
-        ASSERT_EQ(count, mesh.triangles.size() + mesh.quads.size());
-        std::map<std::pair<std::size_t, std::size_t>, std::size_t> edges;  // numbered as they are met
-        std::vector<std::vector<std::size_t>> cells;
-        for (std::size_t attribute = 0, type = 0; cells.size() < count;) {
-            in >> attribute >> type;
-            std::vector<std::size_t>& corners = cells.emplace_back(type + 1);
-            for (std::size_t& v : corners) in >> v;
-            for (std::size_t i = 0; i < corners.size(); ++i)
-                edges.try_emplace(std::minmax({corners[i], corners[(i + 1) % corners.size()]}), edges.size());
-        }
-        skip_to("Ordering:");
-        in >> word;
-        std::vector<Point> places(mesh.points.size() + result.curved.points.size());
-        for (Point& p : places) in >> p.x >> p.y;
-        EXPECT_TRUE(in);
-        EXPECT_FALSE(in >> word);
-        const std::size_t within = order - 1;
-        std::size_t inside = mesh.points.size() + edges.size() * within;
-        for (std::size_t cell = 0; cell < cells.size(); ++cell) {
-            const std::vector<std::size_t>& corners = cells[cell];
-            const auto n = static_cast<unsigned>(corners.size());
-            std::vector<Point> expected;
-            mesh::for_each_node(mesh, result.curved, cell,
-                                [&](std::size_t, Point place) { expected.push_back(place); });
-            const auto lattice = mesh::lattice_of_cell(n, order);
-            for (std::size_t i = 0; i < n; ++i) {
-                EXPECT_EQ(places[corners[i]], expected[i]);
-                const std::size_t a = corners[i], b = corners[(i + 1) % n];
-                for (std::size_t k = 0; k < within; ++k)
-                    EXPECT_EQ(places[mesh.points.size() + edges.at(std::minmax({a, b})) * within +
-                                     (a < b ? k : within - 1 - k)],
-                              expected[n + i * within + k]);
-            }
-            for (unsigned j = 1; j < order; ++j)
-                for (unsigned i = 1; i < (n == 3 ? order - j : order); ++i, ++inside) {
-                    const auto at = std::find_if(lattice.begin(), lattice.end(),
-                                                 [&](const auto& place) { return place.i == i && place.j == j; });
-                    EXPECT_EQ(places[inside], expected[static_cast<std::size_t>(at - lattice.begin())]);
-                }
-        }
-        EXPECT_EQ(inside, places.size());
-    }
 }
 
 TEST(CurvedCells, ThatAreWrongAreFound) {
