@@ -142,7 +142,18 @@ def index_array(indices: Any, columns: int, name: str) -> np.ndarray:
         raise InputError(f"{name} must have the shape {wanted}, not {array.shape}")
     if array.min() < 0 or array.max() >= 2**32 - 1:
         raise InputError(f"{name} must lie between 0 and 2^32 - 2")
-    return np.ascontiguousarray(array, dtype=np.uint32)
+    return unsigned(array)
+
+
+def signed(indices: np.ndarray) -> np.ndarray:
+    """Returns indices of the C++ part, which has unsigned ones, as a view of signed ones: 0 - 1 is -1 then."""
+    return indices.view(np.int32) if indices.dtype == np.uint32 else indices
+
+
+def unsigned(indices: np.ndarray) -> np.ndarray:
+    """Returns indices as the C++ part takes them: a view where they are what signed() returned."""
+    array = np.ascontiguousarray(indices)
+    return array.view(np.uint32) if array.dtype == np.int32 else np.ascontiguousarray(array, dtype=np.uint32)
 
 
 def immutable(array: np.ndarray) -> np.ndarray:

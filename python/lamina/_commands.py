@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from . import _lamina
-from ._arrays import Values, doubles
+from ._arrays import Values, doubles, signed, unsigned
 from ._errors import InputError, MeshWarning, OptionError, RunEstimate, UsageError
 from ._mesh import Mesh, read
 from ._meshing import made_mesh, run_arguments
@@ -143,6 +143,8 @@ def flow(sections: Sections, *, ncrit: float | None = None, trip: float | None =
     facts["elements"] = {name: ElementFlow(FlowSide(**upper), FlowSide(**lower))
                          for name, upper, lower in facts["elements"]}
     facts["warnings"] = [MeshWarning._from(warning) for warning in facts.get("warnings", ())]
+    if "triangles" in facts:
+        facts["triangles"] = signed(facts["triangles"])
     for warning in facts["warnings"]:
         warnings.warn(warning, stacklevel=2)
     return Flow(**facts)
@@ -465,7 +467,7 @@ class SolutionSizes(Values):
 
     def write(self, path: str | os.PathLike[str]) -> None:
         """Writes a VTU file for `lamina mesh --background`."""
-        _lamina.write_sizes(self.points, self.triangles, self.sizes, self.gradation, os.fspath(path))
+        _lamina.write_sizes(self.points, unsigned(self.triangles), self.sizes, self.gradation, os.fspath(path))
 
 
 def sizes(solution: str | os.PathLike[str] | Mesh, fields: str | Sequence[str] | Mapping[str, ArrayLike], *,
@@ -495,7 +497,8 @@ def sizes(solution: str | os.PathLike[str] | Mesh, fields: str | Sequence[str] |
         names = [fields] if isinstance(fields, str) else [str(name) for name in fields]
         data, arrays = _lamina.read_solution(os.fspath(solution), names, "" if mesh is None else os.fspath(mesh))
     count = float(doubles(vertices, "vertices"))
-    return SolutionSizes(*_lamina.sizes_of_fields(data, arrays, count, norm, gradation, max_change))
+    points, triangles, *others = _lamina.sizes_of_fields(data, arrays, count, norm, gradation, max_change)
+    return SolutionSizes(points, signed(triangles), *others)
 
 
 def _field(mesh: Mesh, name: str, values: ArrayLike) -> tuple[str, bool, np.ndarray]:

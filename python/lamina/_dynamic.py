@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from . import _lamina
-from ._arrays import index_array, points_array
+from ._arrays import index_array, points_array, signed
 from ._triangulation import Triangulation
 
 
@@ -40,7 +40,7 @@ class DynamicTriangulation:
         A point that lies where there is one already gets the number of that one. Batches are quicker than single points.
         """
         array = points_array(points)
-        numbers = np.array(self._data.insert(array))
+        numbers = signed(np.array(self._data.insert(array)))
         for i in np.flatnonzero([n not in self for n in numbers.tolist()]):
             numbers[i] = self.find(array[i])
         return numbers
@@ -54,7 +54,7 @@ class DynamicTriangulation:
 
         Raises InputError where it crosses another one (`error.points` holds the ends of both).
         """
-        return self._data.insert_segment(a, b)
+        return signed(self._data.insert_segment(a, b))
 
     def remove_segment(self, a: int, b: int) -> None:
         """Removes all edges of segments on the straight way from point a to point b."""
@@ -72,17 +72,17 @@ class DynamicTriangulation:
     @property
     def triangles(self) -> np.ndarray:
         """(m, 3), counter-clockwise, in no particular order."""
-        return self._data.triangles()
+        return signed(self._data.triangles())
 
     @property
     def segments(self) -> np.ndarray:
         """(k, 2) edges of segments, each once with the smaller number first, sorted."""
-        return self._data.segments()
+        return signed(self._data.segments())
 
     def triangulation(self) -> Triangulation:
         """Returns the present state. Removed points are among its points, but in no triangle."""
         segments = self.segments
-        return Triangulation(self.points, self.triangles, segments, np.arange(len(segments), dtype=np.uint32),
+        return Triangulation(self.points, self.triangles, segments, np.arange(len(segments), dtype=np.int32),
                              len(self.points))
 
     def __len__(self) -> int:

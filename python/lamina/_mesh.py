@@ -14,7 +14,7 @@ from typing import Any, Literal, Mapping, NoReturn
 import numpy as np
 
 from . import _lamina
-from ._arrays import Values, immutable, index_array, points_array
+from ._arrays import Values, immutable, index_array, points_array, signed
 from ._errors import MeshWarning, UsageError
 from ._graph import (MeshEdges, areas_and_centres, edge_index, edge_normals, find_edges, node_layers, node_markers,
                      node_types)
@@ -226,16 +226,16 @@ class Mesh:
     @cached_property
     def triangles(self) -> np.ndarray:
         """(m, 3) indices into `points`, counter-clockwise."""
-        return self._data.triangles()
+        return signed(self._data.triangles())
 
     @cached_property
     def quads(self) -> np.ndarray:
         """(m, 4) indices into `points`, counter-clockwise."""
-        return self._data.quads()
+        return signed(self._data.quads())
 
     @cached_property
     def _markers(self) -> list[tuple[str, int, np.ndarray]]:
-        return self._data.markers()
+        return [(name, kind, signed(edges)) for name, kind, edges in self._data.markers()]
 
     @cached_property
     def markers(self) -> Mapping[str, np.ndarray]:
@@ -250,7 +250,8 @@ class Mesh:
 
     @cached_property
     def _curved(self) -> tuple[int, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-        return self._data.curved_nodes()
+        order, *arrays = self._data.curved_nodes()
+        return order, *map(signed, arrays)
 
     @property
     def order(self) -> int:
@@ -326,17 +327,17 @@ class Mesh:
     @property
     def column_origin(self) -> np.ndarray:
         """Per column: the vertex that its first ray begins at, on a wall or on a wake; several at a fan of rays."""
-        return self._columns[1]
+        return signed(self._columns[1])
 
     @cached_property
     def piece(self) -> np.ndarray:
         """Per cell: the subdomain that made it."""
-        return self._data.piece()
+        return signed(self._data.piece())
 
     @cached_property
     def constraints(self) -> np.ndarray:
         """Interior edges that the triangulation was constrained to: the outer borders of the layer. (k, 2) indices."""
-        return self._data.constraints()
+        return signed(self._data.constraints())
 
     @cached_property
     def wall_distance(self) -> np.ndarray:
@@ -420,7 +421,7 @@ class Mesh:
     def _wall(self) -> WallVertices:
         vertex, marker, arc_length, normal, first_height, first = self._data.walls()
         bodies = [slice(a, b) for a, b in zip(first[:-1], first[1:])]
-        return WallVertices(vertex, marker, arc_length, normal, first_height, bodies)
+        return WallVertices(signed(vertex), signed(marker), arc_length, normal, first_height, bodies)
 
     @cached_property
     def hash(self) -> str:
@@ -573,7 +574,7 @@ class Mesh:
             name: np.array(getattr(self, name))
             for name in ("points", "triangles", "quads", "region", "piece", "layer", "constraints")}
         arrays["markers"] = [(name, kind, np.array(edges)) for name, kind, edges in self._markers]
-        curved = tuple(np.array(part) for part in self._curved[1:]) if self.order > 1 else ()
+        curved = tuple(np.array(part) for part in self._data.curved_nodes()[1:]) if self.order > 1 else ()
         return {"arrays": arrays, "order": self.order, "curved": curved, "warnings": list(self._warnings),
                 "facts": self._facts, "columns": tuple(np.array(part) for part in self._columns)}
 

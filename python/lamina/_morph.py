@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from . import _lamina
-from ._arrays import points_array
+from ._arrays import points_array, signed
 from ._errors import InputError, MeshError, UsageError
 from ._mesh import Mesh
 from ._sections import Sections, section_list
@@ -33,7 +33,7 @@ class MorphMap:
     def __init__(self, mesh: Mesh) -> None:
         self.mesh = mesh  #: that it is made for
         self._map = _lamina.MorphMap(mesh._data)
-        self.wall = self._map.wall()  #: (n,) indices of the wall vertices into Mesh.points
+        self.wall = signed(self._map.wall())  #: (n,) indices of the wall vertices into Mesh.points
         self.wall_points = self._map.wall_points()  #: (n, 2) where they are in the mesh
 
     def __len__(self) -> int:

@@ -93,7 +93,7 @@ def draw_mesh(mesh: Mesh, ax: Any, window: Any, color: str, style: dict[str, Any
                  "layer": "layer"}[color]
         ax.figure.colorbar(filled, ax=ax, label=label)
     edges = np.concatenate([_edges_of(getattr(mesh, kind)[n]) for kind, n in chosen.items() if len(n)] or
-                           [np.empty((0, 2), dtype=np.uint32)])
+                           [np.empty((0, 2), dtype=np.int32)])
     _add_lines(ax, mesh.points, edges, {"colors": "0.25", "linewidths": 0.3, **style})
     _draw_walls(mesh, ax)
     _set_window(ax, window)

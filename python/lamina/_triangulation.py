@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _lamina
-from ._arrays import Values, doubles, immutable, index_array, points_array, queries_array
+from ._arrays import (Values, doubles, immutable, index_array, points_array, queries_array, signed,
+                      unsigned)
 from ._errors import InputError, OptionError, UsageError
 
 if TYPE_CHECKING:
@@ -33,6 +34,10 @@ class IndexLists(Values, Sequence[np.ndarray]):
 
     starts: np.ndarray  #: (n + 1,) where the lists begin, and the end of the last one
     items: np.ndarray  #: those of all lists
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "starts", signed(self.starts))
+        object.__setattr__(self, "items", signed(self.items))
 
     def __len__(self) -> int:
         return len(self.starts) - 1
@@ -89,14 +94,14 @@ class Triangulation:
     given_points: int  #: number of the points handed in
     stats: Mapping[str, int] = field(default_factory=dict)  #: of a refinement: what could not be refined as asked
     #: (given_points,) for each point that was handed in the one that stands for it; empty unless points were merged
-    merged_into: np.ndarray = field(default_factory=lambda: np.empty(0, dtype=np.uint32))
+    merged_into: np.ndarray = field(default_factory=lambda: np.empty(0, dtype=np.int32))
     #: (m,) for each triangle the index of its region in refine(), -1 elsewhere; empty where no regions were given
     regions: np.ndarray = field(default_factory=lambda: _NO_REGIONS)
 
     def __post_init__(self) -> None:
         arrays = ("points", "triangles", "segments", "parents", "merged_into")
         for name in arrays if self.regions is _NO_REGIONS else (*arrays, "regions"):
-            object.__setattr__(self, name, immutable(getattr(self, name)))
+            object.__setattr__(self, name, immutable(signed(getattr(self, name))))
         object.__setattr__(self, "stats", MappingProxyType(dict(self.stats)))
 
     def __eq__(self, other: object) -> bool:
@@ -133,18 +138,18 @@ class Triangulation:
     def half_edges(self) -> np.ndarray:
         """(3 m,) for each half-edge the opposite one; -1 on the boundary. Number 3 t + i runs from corner i of triangle
         t to the next one."""
-        return _lamina.half_edges(len(self.points), self.triangles).view(np.int32)
+        return signed(_lamina.half_edges(len(self.points), unsigned(self.triangles)))
 
     @cached_property
     def neighbours(self) -> np.ndarray:
         """(m, 3) the triangles across the edges opposite the corners; -1 across the boundary."""
-        return _lamina.neighbours(self.half_edges.view(np.uint32)).view(np.int32)
+        return signed(_lamina.neighbours(unsigned(self.half_edges)))
 
     @cached_property
     def half_edges_at_points(self) -> IndexLists:
         """For each point the half-edges that start there, counter-clockwise; half-edge h is in triangle h // 3."""
-        return IndexLists(*_lamina.half_edges_at_points(len(self.points), self.triangles,
-                                                        self.half_edges.view(np.uint32)))
+        return IndexLists(*_lamina.half_edges_at_points(len(self.points), unsigned(self.triangles),
+                                                        unsigned(self.half_edges)))
 
     @property
     def boundary(self) -> list[np.ndarray]:
@@ -154,17 +159,18 @@ class Triangulation:
 
     @cached_property
     def _boundary_loops(self) -> IndexLists:
-        return IndexLists(*_lamina.boundary_loops(self.half_edges.view(np.uint32)))
+        return IndexLists(*_lamina.boundary_loops(unsigned(self.half_edges)))
 
     @cached_property
     def _index(self) -> _lamina.TriangulationIndex:
-        return _lamina.TriangulationIndex(self.points, self.triangles)
+        return _lamina.TriangulationIndex(self.points, unsigned(self.triangles))
 
     def check(self, *, require_delaunay: bool = True) -> list[str]:
         """Returns the first 20 defects, one line each; none: the triangulation is valid. Exact. Defects are clockwise
         and flat triangles, overlaps, segments that are no edges, and, with `require_delaunay`, edges that are not
         Delaunay."""
-        return _lamina.check_triangulation(self.points, self.triangles, self.segments, require_delaunay)
+        return _lamina.check_triangulation(self.points, unsigned(self.triangles), unsigned(self.segments),
+                                           require_delaunay)
 
     def quadratic_nodes(self) -> tuple[np.ndarray, np.ndarray]:
         """Returns points with the middles of all edges behind them, and (m, 6) nodes of the triangles: the corners,
@@ -188,7 +194,7 @@ class Triangulation:
         """Returns for each of (n, 2) points the index of the nearest vertex; for one point an int. Exact. For Delaunay
         triangulations of points; UsageError for others."""
         queries, is_one = queries_array(points)
-        found = self._index.nearest(queries)
+        found = signed(self._index.nearest(queries))
         return int(found[0]) if is_one else found
 
     def interpolate(self, values: ArrayLike, points: ArrayLike, *, method: str = "linear") -> Any:
@@ -215,17 +221,19 @@ class Triangulation:
     def natural_neighbours(self, point: Sequence[float]) -> tuple[np.ndarray, np.ndarray]:
         """Returns the indices of the natural neighbours of a point, counter-clockwise, and Sibson's weights; both empty
         outside."""
-        return self._index.natural_neighbours(float(point[0]), float(point[1]))
+        vertices, weights = self._index.natural_neighbours(float(point[0]), float(point[1]))
+        return signed(vertices), weights
 
     def voronoi(self) -> VoronoiDiagram:
         """Returns the Voronoi diagram of the points. For Delaunay triangulations of points."""
-        corners, (starts, items), rays, directions = _lamina.voronoi_diagram(self.points, self.triangles)
-        return VoronoiDiagram(corners, IndexLists(starts, items), rays, directions)
+        corners, (starts, items), rays, directions = _lamina.voronoi_diagram(self.points, unsigned(self.triangles))
+        return VoronoiDiagram(corners, IndexLists(starts, items), signed(rays), directions)
 
     def voronoi_cells(self, polygon: ArrayLike) -> list[np.ndarray]:
         """Returns for each point the part of its Voronoi cell in a convex, counter-clockwise polygon: (k, 2) corners,
         none where it has no part. For Delaunay triangulations of points."""
-        starts, corners = _lamina.clipped_voronoi_cells(self.points, self.triangles, points_array(polygon, "polygon"))
+        starts, corners = _lamina.clipped_voronoi_cells(self.points, unsigned(self.triangles),
+                                                        points_array(polygon, "polygon"))
         return np.split(corners, starts[1:-1]) if len(starts) > 1 else []
 
     def plot(self, ax: Any = None, **style: Any) -> Any:
@@ -307,7 +315,7 @@ def merge_points(points: ArrayLike, distance: float) -> np.ndarray:
     >>> lamina.merge_points([[0, 0], [1, 0], [0, 1e-9]], 1e-6).tolist()
     [0, 1, 0]
     """
-    return _lamina.merge_points(points_array(points), float(distance))
+    return signed(_lamina.merge_points(points_array(points), float(distance)))
 
 
 def ring_segments(rings: Iterable[ArrayLike]) -> tuple[np.ndarray, np.ndarray]:
@@ -324,7 +332,7 @@ def ring_segments(rings: Iterable[ArrayLike]) -> tuple[np.ndarray, np.ndarray]:
     arrays = [points_array(ring, "ring") for ring in rings]
     starts = np.cumsum([0] + [len(a) for a in arrays])
     points = np.concatenate(arrays) if arrays else np.empty((0, 2))
-    return points, _lamina.ring_segments(len(points), index_array(starts[:-1], 1, "starts"))
+    return points, signed(_lamina.ring_segments(len(points), index_array(starts[:-1], 1, "starts")))
 
 
 #: Where areas are bounded and nothing else is said, triangles have at most this much more area than the equilateral one
@@ -385,14 +393,14 @@ def refine(triangulation: Triangulation, size: Any = math.inf, *, gradation: flo
                      dtype=np.float64)
     bound = _lamina.proved_min_angle if min_angle is None else min_angle
     steiner, triangles, edges, parents, stats, of_region = _lamina.refine(
-        t.points, t.triangles, t.segments, t.parents, _size_argument(t, size, gradation), float(gradation),
-        float(bound), split_segments, smoothing, max_triangles, conforming, ratio, areas, seeds, sizes)
+        t.points, unsigned(t.triangles), unsigned(t.segments), unsigned(t.parents), _size_argument(t, size, gradation),
+        float(gradation), float(bound), split_segments, smoothing, max_triangles, conforming, ratio, areas, seeds, sizes)
     if isinstance(size, (int, float)) and math.isinf(size) and not bounds_areas:
         # The sizes that stand for no bound are finite, and flat triangles have circles that are larger.
         stats["oversized"] = 0
         stats["refused"] *= stats["below_bound"] != stats["exempt"]
     return Triangulation(_joined(t.points, steiner), triangles, edges, parents, t.given_points, stats, t.merged_into,
-                         of_region.view(np.int32) if len(regions) else _NO_REGIONS)
+                         signed(of_region) if len(regions) else _NO_REGIONS)
 
 
 def _smaller_size(size: Any, other: float) -> Any:
@@ -438,7 +446,8 @@ def _size_argument(t: Triangulation, size: Any, gradation: float) -> Any:
         background = points_array(points, "background points")
         return background, index_array(triangles, 3, "background triangles"), _sizes_array(sizes, len(background))
     array = doubles(size, "size")
-    return float(array) if array.ndim == 0 else (t.points, t.triangles, _sizes_array(array, len(t.points)))
+    return float(array) if array.ndim == 0 else (t.points, unsigned(t.triangles),
+                                                      _sizes_array(array, len(t.points)))
 
 
 #: A square is divided while its side exceeds this many edges.

@@ -1,8 +1,11 @@
 """The mesh as an object: arrays, files, check, pictures, other packages."""
 
 import copy
+import dataclasses
 import importlib.util
 import pickle
+from collections.abc import Mapping
+from functools import cached_property
 
 import numpy as np
 import pytest
@@ -18,12 +21,45 @@ def area_of(polygon):
 def test_arrays_are_views_that_cannot_change(small):
     for name in ("points", "triangles", "quads", "region", "layer", "piece", "constraints"):
         array = getattr(small, name)
-        assert array.dtype == {"points": np.float64, "region": np.uint8, "layer": np.uint16}.get(name, np.uint32)
+        assert array.dtype == {"points": np.float64, "region": np.uint8, "layer": np.uint16}.get(name, np.int32)
         assert not array.flags.writeable
         with pytest.raises(ValueError):
             array[...] = 0
         assert len(array) == 0 or np.shares_memory(array, getattr(small._data, name)())
     assert small.points.shape[1] == 2 and small.triangles.shape[1] == 3 and small.quads.shape[1] == 4
+
+
+def arrays_within(value):
+    """Yields the arrays of a value, of its fields and of what it holds."""
+    if isinstance(value, np.ndarray):
+        yield value
+    elif isinstance(value, (list, tuple)):
+        for entry in value:
+            yield from arrays_within(entry)
+    elif isinstance(value, Mapping):
+        yield from arrays_within(list(value.values()))
+    elif dataclasses.is_dataclass(value):
+        yield from arrays_within([getattr(value, part.name) for part in dataclasses.fields(value)])
+
+
+def test_indices_do_not_wrap(small, square):
+    """0 - 1 is -1 with all indices that users get, as in numpy.diff(mesh.markers["airfoil"])."""
+    dynamic = lamina.DynamicTriangulation(square.points, square.segments)
+    curved = lamina.mesh("naca:0012", first_height=1e-3, layers=4, order=2)
+    refined = lamina.refine(square, 0.3, regions=[(0.5, 0.5, 0.1)])
+    fields = {"p": small.points[:, 0] ** 2}
+    values = [getattr(mesh, name) for mesh in (small, curved) for name in dir(mesh)
+              if not name.startswith("_") and isinstance(getattr(type(mesh), name, None), (property, cached_property))]
+    values += [square, refined, square.half_edges, square.neighbours, square.half_edges_at_points, square.boundary,
+               lamina.delaunay(square.points).voronoi(), refined.nearest([[0.2, 0.3]]),
+               lamina.delaunay(square.points).natural_neighbours([0.4, 0.3]), refined.locate([[0.2, 0.3]]),
+               dynamic.triangles, dynamic.segments, dynamic.insert([[0.5, 0.25]]), dynamic.triangulation(),
+               lamina.merge_points(square.points, 0.1), lamina.ring_segments([square.points]),
+               lamina.MorphMap(small).wall, lamina.sizes(small, fields, vertices=20_000),
+               lamina.flow("naca:0012", mach=0.5)]
+    found = list(arrays_within(values))
+    assert len(found) > 50
+    assert {array.dtype.name for array in found if array.dtype.kind == "u"} == {"uint8", "uint16"}  # region and layer
 
 
 def test_arrays_outlive_the_mesh():

@@ -194,7 +194,7 @@ def triangulate(tri: Mapping[str, Any], opts: str = "") -> dict[str, Any]:
     points = points_array(tri["vertices"], "vertices")
     coarse = _coarse(tri, switches, points)
     t = _refined(tri, switches, coarse)
-    edges = find_edges(t.triangles, np.empty((0, 4), dtype=np.uint32))
+    edges = find_edges(t.triangles, np.empty((0, 4), dtype=np.int32))
     boundary = edges.ends[edges.cells[:, 1] < 0]
     segments, given, marks = _segments(tri, switches, t, boundary)
     result: dict[str, Any] = {"vertices": np.array(t.points), "triangles": t.triangles.astype(np.int32)}
