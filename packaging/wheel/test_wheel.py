@@ -24,6 +24,13 @@ def test_cgns_is_there():
     assert {"cgns", "cgns-adf"} <= set(lamina.formats())
 
 
+def test_plot_names_what_draws(tmp_path):
+    lamina.naca("0012", 20).tofile(tmp_path / "a.dat", sep=" ")
+    run = subprocess.run([sys.executable, "-m", "lamina", "plot", "a.dat", "-o", "a.png"], cwd=tmp_path, text=True,
+                         capture_output=True)
+    assert run.returncode == 2 and "lamina view" in run.stderr and "Mesh.plot()" in run.stderr
+
+
 @pytest.mark.parametrize("order", [("lamina", "h5py"), ("h5py", "lamina"), ("lamina", "netCDF4"), ("netCDF4", "lamina")])
 def test_beside_other_hdf5(order, tmp_path):
     subprocess.run([sys.executable, "-c", READ.format(*order)], cwd=tmp_path, check=True)

@@ -7,7 +7,9 @@ namespace lamina {
 namespace {
 
 [[noreturn]] void refuse_picture() {
-    throw UsageError("this build of lamina draws no pictures: it was made without Cairo");
+    throw UsageError(
+        "this build of lamina draws no pictures: it was made without Cairo; lamina view writes a page to zoom into, "
+        "and Mesh.plot() of Python draws with matplotlib");
 }
 
 }  // namespace
