@@ -1,6 +1,6 @@
 // Reads Gmsh's MSH format, versions 2.0 to 2.2 and 4.1, ASCII and binary: plane meshes of lines, triangles and
-// quadrilaterals of one order from 1 to 4, and those whose copies in z are joined by prisms and hexahedra. Points (element type 15) and unknown sections are skipped.
-// Source: Gmsh reference manual, "Gmsh mesh file formats".
+// quadrilaterals of one order from 1 to 4, and those whose copies in z are joined by prisms and hexahedra. Points
+// (element type 15) and unknown sections are skipped. Source: Gmsh reference manual, "Gmsh mesh file formats".
 //
 // The lines of a physical curve become a marker with the name of the group; lines without a group are left out. Where
 // every cell is in a physical surface 'layer' or 'isotropic', these become regions.

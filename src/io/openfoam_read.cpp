@@ -1,5 +1,5 @@
-// Reads an OpenFOAM polyMesh in ASCII that holds a plane mesh in copies: prisms and hexahedra between planes of constant
-// z. Source: OpenFOAM user guide, "Mesh description".
+// Reads an OpenFOAM polyMesh in ASCII that holds a plane mesh in copies: prisms and hexahedra between planes of
+// constant z. Source: OpenFOAM user guide, "Mesh description".
 //
 // Points of the lowest plane keep their order, and cells the order of their numbers. Patches in the lowest or in the
 // highest plane make no markers.

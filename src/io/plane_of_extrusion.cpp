@@ -17,7 +17,8 @@ namespace lamina::io {
 
 namespace {
 
-/// By how much a node may lean from the one below it, in units of the largest coordinate: files with ten digits round so.
+/// By how much a node may lean from the one below it, in units of the largest coordinate: files with ten digits round
+/// so.
 constexpr double rounding = 1e-9;
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 

@@ -42,9 +42,9 @@ struct CurvedCells {
 /// along it by d'.
 ///
 /// Where the smallest determinant of a cell cannot be proved to be more than 0.02 of its largest one, and is less than
-/// half of that when the cell is straight, the bends of the edges that move it are halved, and become 0 after six times:
-/// what is not valid has none. Throws MeshError where a cell is not valid even so. Precondition: check_mesh() finds no defect; the edges are on the
-/// boundary, each given once; quadrilaterals at them are in columns.
+/// half of that when the cell is straight, the bends of the edges that move it are halved, and become 0 after six
+/// times: what is not valid has none. Throws MeshError where a cell is not valid even so. Precondition: check_mesh()
+/// finds no defect; the edges are on the boundary, each given once; quadrilaterals at them are in columns.
 LAMINA_EXPORT CurvedCells curve_cells(const MeshView& mesh, unsigned order, std::span<const WallCurve> walls,
                                       const CellColumnNumbers& columns);
 

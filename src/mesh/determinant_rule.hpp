@@ -1,6 +1,5 @@
-// How the nodes of a cell become the Bernstein coefficients of the determinant of its Jacobian: what depends on the shape
-// and the order of the cell alone.
-// Source: G. Farin, Curves and Surfaces for CAGD (2002), chapters 5 and 17.
+// How the nodes of a cell become the Bernstein coefficients of the determinant of its Jacobian: what depends on the
+// shape and the order of the cell alone. Source: G. Farin, Curves and Surfaces for CAGD (2002), chapters 5 and 17.
 #pragma once
 
 #include <array>

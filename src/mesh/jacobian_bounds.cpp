@@ -1,6 +1,6 @@
-// Source: A. Johnen, J.-F. Remacle, C. Geuzaine, J. Comput. Phys. 233 (2013); subdivision: G. Farin, Curves and Surfaces
-// for CAGD (2002), chapter 5; bounds of rounding errors: N. J. Higham, Accuracy and Stability of Numerical Algorithms
-// (2002), chapter 3.
+// Source: A. Johnen, J.-F. Remacle, C. Geuzaine, J. Comput. Phys. 233 (2013); subdivision: G. Farin, Curves and
+// Surfaces for CAGD (2002), chapter 5; bounds of rounding errors: N. J. Higham, Accuracy and Stability of Numerical
+// Algorithms (2002), chapter 3.
 #include "mesh/jacobian_bounds.hpp"
 
 #include <algorithm>
@@ -204,8 +204,8 @@ inline void measure_curves(const CurveRule& rule, std::span<const LatticePlace> 
     curves.largest.error = 2 * of_map * largest + rounding_unit * curves.largest.size;
 }
 
-/// Bounds the determinants of cells that are linear along their first edges but for rounding, such as those of a layer's
-/// columns: of the degree 1 along these and 2 p - 1 along the others.
+/// Bounds the determinants of cells that are linear along their first edges but for rounding, such as those of a
+/// layer's columns: of the degree 1 along these and 2 p - 1 along the others.
 inline void bound_linear(const DeterminantRule& rule, const JacobianBatch& batch, SimpleBounds& bounds) {
     const unsigned p = rule.order;
     const std::span<const LatticePlace> lattice = lattice_of_cell(4, p);

@@ -259,8 +259,8 @@ std::vector<Point> turned_quad(unsigned p, const std::vector<Point>& nodes) {
 }
 
 TEST(JacobianBounds, OfCellsLinearInOneDirectionAreThoseOfAllCoefficients) {
-    // Two curves with straight lines from one to the other, as in the columns of a layer. Turned by a corner, the cell is
-    // linear along the edges whose curves are not looked at alone.
+    // Two curves with straight lines from one to the other, as in the columns of a layer. Turned by a corner, the cell
+    // is linear along the edges whose curves are not looked at alone.
     core::Random random(11);
     std::size_t valid = 0, otherwise = 0;
     for (int round = 0; round < 300; ++round)
