@@ -25,8 +25,8 @@ def test_cgns_is_there():
 
 
 def test_plot_names_what_draws(tmp_path):
-    lamina.naca("0012", 20).tofile(tmp_path / "a.dat", sep=" ")
-    run = subprocess.run([sys.executable, "-m", "lamina", "plot", "a.dat", "-o", "a.png"], cwd=tmp_path, text=True,
+    lamina.mesh("naca:0012", preset="euler").write(tmp_path / "a.vtu")
+    run = subprocess.run([sys.executable, "-m", "lamina", "plot", "a.vtu", "-o", "a.png"], cwd=tmp_path, text=True,
                          capture_output=True)
     assert run.returncode == 2 and "lamina view" in run.stderr and "Mesh.plot()" in run.stderr
 
