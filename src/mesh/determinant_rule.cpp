@@ -91,16 +91,16 @@ void add_conversion(unsigned corners, unsigned p, const CoefficientGrid& map, De
     std::vector<std::vector<NodeFactor>> of_coefficients(map.size());
     std::vector<double> sums(map.size());
     for (std::size_t node = 0; node < rule.nodes; ++node) {
-        const auto [i, j] = lattice[node];
+        const LatticePlace& place = lattice[node];
         const auto add = [&](unsigned a, unsigned b, double factor) {
             if (factor != 0) of_coefficients[map.at(a, b)].push_back({node, factor});
             sums[map.at(a, b)] += std::abs(factor);
         };
         if (corners == 3)
-            for_each_triangle_factor(p, {i, j}, add);
+            for_each_triangle_factor(p, place, add);
         else
             map.for_each([&](unsigned a, unsigned b) {
-                add(a, b, rule.curve.to_bernstein[a][i] * rule.curve.to_bernstein[b][j]);
+                add(a, b, rule.curve.to_bernstein[a][place.i] * rule.curve.to_bernstein[b][place.j]);
             });
     }
     rule.largest_row = *std::max_element(sums.begin(), sums.end());

@@ -56,7 +56,7 @@ struct CurveRule {
     std::array<std::array<double, max_cell_order + 1>, max_cell_order + 1> to_bernstein{};  ///< [coefficient][node]
     std::array<double, max_cell_order + 1> weights{};                                       ///< of degree p
     std::array<double, max_cell_order> weights_of_derivative{};                             ///< of degree p - 1
-    std::array<double, 2 * max_cell_order> weights_of_product{};                            ///< of degree 2 p - 1
+    std::array<double, std::size_t{2} * max_cell_order> weights_of_product{};               ///< of degree 2 p - 1
 };
 
 /// How nodes become the coefficients of the determinant, but for the factor `scale`.
