@@ -260,7 +260,9 @@ def main():
     log = (sections[0].cases[-1] / "log.rhoSimpleFoam").read_text()
     version = "OpenFOAM " + re.search(r"OPENFOAM=(\S+)", log).group(1)
     command = "./dev test-solvers" + (" --high-lift SLAT MAIN FLAP" if arguments.high_lift else "")
-    arguments.page.write_text(page(studies, picture, command, version))
+    # The section that polar_validation.py writes stays.
+    polars = arguments.page.read_text().partition("\n## Polars\n") if arguments.page.exists() else ("", "", "")
+    arguments.page.write_text(page(studies, picture, command, version) + "".join(polars[1:]))
     print(f"wrote {arguments.page} and {picture}")
 
 
