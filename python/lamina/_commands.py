@@ -7,7 +7,7 @@ import math
 import os
 import warnings
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -497,8 +497,8 @@ def sizes(solution: str | os.PathLike[str] | Mesh, fields: str | Sequence[str] |
         names = [fields] if isinstance(fields, str) else [str(name) for name in fields]
         data, arrays = _lamina.read_solution(os.fspath(solution), names, "" if mesh is None else os.fspath(mesh))
     count = float(doubles(vertices, "vertices"))
-    points, triangles, *others = _lamina.sizes_of_fields(data, arrays, count, norm, gradation, max_change)
-    return SolutionSizes(points, signed(triangles), *others)
+    found = SolutionSizes(*_lamina.sizes_of_fields(data, arrays, count, norm, gradation, max_change))
+    return replace(found, triangles=signed(found.triangles))
 
 
 def _field(mesh: Mesh, name: str, values: ArrayLike) -> tuple[str, bool, np.ndarray]:

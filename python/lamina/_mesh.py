@@ -250,8 +250,8 @@ class Mesh:
 
     @cached_property
     def _curved(self) -> tuple[int, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-        order, *arrays = self._data.curved_nodes()
-        return order, *map(signed, arrays)
+        order, places, triangles, quads, edges = self._data.curved_nodes()
+        return order, places, signed(triangles), signed(quads), signed(edges)
 
     @property
     def order(self) -> int:
