@@ -56,6 +56,7 @@ class Polar:
             log = folder / f"{self.name}_{alpha}.log"
             if run([program, "case", "openfoam", *self.arguments, "--alpha", f"{alpha}", "-o", case, "--overwrite"], log):
                 raise RuntimeError(f"{log}: no case")
+            run([case / "Allclean"], log)  # what an interrupted run left
             if run([case / "Allrun"], log) not in (0, 2):  # 2: not steady
                 raise RuntimeError(f"{log}: the solver failed")
         result = self.read_own_mesh(folder)[alpha]

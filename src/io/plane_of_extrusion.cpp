@@ -19,8 +19,8 @@ namespace {
 
 /// By how much a node may lean from the one below it, in units of the largest coordinate: files with ten digits round
 /// so.
-constexpr double rounding = 1e-9;
-constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+constexpr double rounding_of_files = 1e-9;
+constexpr std::uint32_t no_column = std::numeric_limits<std::uint32_t>::max();
 
 class Collapse {
 public:
@@ -38,7 +38,7 @@ public:
 
 private:
     using Volume = SpaceMesh::Volume;
-    /// The columns of a cell's corners, the lowest one first; `none` is the fourth of a triangle.
+    /// The columns of a cell's corners, the lowest one first; `no_column` is the fourth of a triangle.
     using Cell = std::array<std::uint32_t, 4>;
 
     [[noreturn]] void fail(const std::string& reason) const {
@@ -54,8 +54,8 @@ private:
             plane_.push_back(
                 static_cast<std::uint32_t>(std::lower_bound(planes_.begin(), planes_.end(), height) - planes_.begin()));
         for (const Point p : mesh_.points) largest_ = std::max({largest_, std::abs(p.x), std::abs(p.y)});
-        column_.assign(plane_.size(), none);
-        above_.assign(plane_.size(), none);
+        column_.assign(plane_.size(), no_column);
+        above_.assign(plane_.size(), no_column);
         for (std::uint32_t node = 0; node < plane_.size(); ++node) {
             if (plane_[node] != 0) continue;
             column_[node] = static_cast<std::uint32_t>(result_.nodes.size());
@@ -106,15 +106,15 @@ private:
             for (std::size_t k = 0; k < volumes_[i].corners; ++k)
                 put_above(volumes_[i].nodes[k], volumes_[i].nodes[volumes_[i].corners + k]);
         for (std::size_t node = 0; node < column_.size(); ++node)
-            if (column_[node] == none) fail(fmt::format("node {} is in no cell", node + 1));
+            if (column_[node] == no_column) fail(fmt::format("node {} is in no cell", node + 1));
     }
     void put_above(std::uint32_t below, std::uint32_t above) {
-        if (column_[below] == none) fail(fmt::format("there is no cell below node {}", below + 1));
-        const bool is_new = above_[below] == none && column_[above] == none;
+        if (column_[below] == no_column) fail(fmt::format("there is no cell below node {}", below + 1));
+        const bool is_new = above_[below] == no_column && column_[above] == no_column;
         if (!is_new && (above_[below] != above || column_[above] != column_[below]))
             fail(fmt::format("nodes {} and {} are not alone above one another", below + 1, above + 1));
         const Point lean = mesh_.points[above] - mesh_.points[below];
-        if (std::max(std::abs(lean.x), std::abs(lean.y)) > rounding * largest_)
+        if (std::max(std::abs(lean.x), std::abs(lean.y)) > rounding_of_files * largest_)
             fail(fmt::format("node {} does not stand straight above node {}", above + 1, below + 1));
         above_[below] = above;
         column_[above] = column_[below];
@@ -159,7 +159,7 @@ private:
         }
     }
     Cell cell_of(const Volume& volume) const {
-        Cell cell{none, none, none, none};
+        Cell cell{no_column, no_column, no_column, no_column};
         for (std::size_t k = 0; k < volume.corners; ++k) cell[k] = column_[volume.nodes[k]];
         const auto end = cell.begin() + static_cast<std::ptrdiff_t>(volume.corners);
         std::rotate(cell.begin(), std::min_element(cell.begin(), end), end);
