@@ -107,7 +107,7 @@ def table(polars, folder):
         one, own = polar.read_one_mesh(folder), polar.read_own_mesh(folder)
         for alpha in polar.own_angles:
             if alpha not in one or alpha not in own:
-                lines.append(f"| {polar.title} | {alpha} | failed | | | | | |")
+                lines.append(f"| {polar.title} | {alpha} | no result | | | | | |")
                 continue
             a, b = one[alpha], own[alpha]
             lift = f"{100 * (a['CL'] / b['CL'] - 1):+.2f} %" if abs(b["CL"]) > 0.01 else f"{a['CL'] - b['CL']:+.4f}"

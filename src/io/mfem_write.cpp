@@ -100,7 +100,7 @@ private:
             const std::size_t border = std::size_t{corners} * nodes_.order;
             const std::vector<std::size_t> rows = rows_of_nodes(corners, nodes_.order, border);
             const std::size_t within = rows.size() - border;
-            write_lines(out_, cells * within, [&](LineText& line, std::size_t i) {
+            write_lines(out_, cells * within, [&, corners = corners](LineText& line, std::size_t i) {
                 line << node(first + i / within, rows[border + i % within] - corners);
             });
             first += cells;
