@@ -34,8 +34,9 @@ HEADING = "## Polars"
 class Polar:
     """A section with its angles: first, last and step of one mesh, and those that have a mesh of their own."""
 
-    def __init__(self, title, name, inputs, reynolds, angles, own_angles, more=(), experiment=()):
-        self.title, self.name, self.angles, self.own_angles, self.experiment = title, name, angles, own_angles, experiment
+    def __init__(self, title, name, inputs, reynolds, angles, own_angles, more=(), experiment=(), trip=None):
+        self.title, self.name, self.angles, self.own_angles = title, name, angles, own_angles
+        self.experiment, self.trip = experiment, trip
         self.arguments = [*map(str, inputs), "--reynolds", f"{reynolds:g}", *more]
         self.reynolds = reynolds
 
@@ -81,13 +82,14 @@ class Polar:
         return results
 
     def flow(self, program, folder):
-        """Returns angles, CL and CD by lamina's own flow, tripped at a twentieth of the chord."""
+        """Returns angles, CL and CD by lamina's own flow, where it finds one."""
         first, last, step = self.angles
         out = folder / f"{self.name}_flow"
-        run([program, "polar", *self.arguments, "--trip", "0.05", "--alpha", f"{first}:{last}:{step}", "-o", out],
+        run([program, "polar", *self.arguments, *(["--trip", self.trip] if self.trip else []), "--alpha", f"{first}:{last}:{step}",
+             "-o", out],
             folder / f"{self.name}_flow.log")
         with open(out / "polar.csv", newline="") as file:
-            rows = [row for row in csv.DictReader(file) if row["CL"] and row["CD"]]
+            rows = [row for row in csv.DictReader(file) if row["steady"] == "yes"]
         return [(float(row["alpha"]), float(row["CL"]), float(row["CD"])) for row in rows]
 
 
@@ -129,7 +131,8 @@ def draw(polars, program, folder, picture):
         points_of = lambda results: [(alpha, r["CL"], r["CD"]) for alpha, r in sorted(results.items())]
         plot(points_of(polar.read_one_mesh(folder)), "o-", "OpenFOAM, one mesh")
         plot(points_of(polar.read_own_mesh(folder)), "x", "OpenFOAM, a mesh for each angle")
-        plot(polar.flow(program, folder), "k--", "lamina flow, transition at 5 %")
+        plot(polar.flow(program, folder), "k--",
+             f"lamina flow, transition at {polar.trip} chords" if polar.trip else "lamina flow, free transition")
         if polar.experiment:
             plot(polar.experiment, "s", "Ladson, 80 grit")
         top.set_title(f"{polar.title}, Re {polar.reynolds:g}", fontsize=10)
@@ -173,10 +176,10 @@ def main():
     os.environ.setdefault("OMP_NUM_THREADS", "1")
 
     angles, own = (0, 16, 2), (0, 4, 8, 10, 12, 14, 16)
-    polars = [Polar("NACA 0012", "naca0012", ["naca:0012"], 6e6, angles, own, experiment=LADSON),
-              Polar("NACA 4412", "naca4412", ["naca:4412"], 3e6, angles, own),
-              Polar("FX 63-137", "fx63137", [arguments.fx63137], 1e6, angles, own),
-              Polar("LS(1)-0417", "ls417", [arguments.ls417], 6e6, angles, own),
+    polars = [Polar("NACA 0012", "naca0012", ["naca:0012"], 6e6, angles, own, experiment=LADSON, trip="0.05"),
+              Polar("NACA 4412", "naca4412", ["naca:4412"], 3e6, angles, own, trip="0.05"),
+              Polar("FX 63-137", "fx63137", [arguments.fx63137], 1e6, angles, own, trip="0.05"),
+              Polar("LS(1)-0417", "ls417", [arguments.ls417], 6e6, angles, own, trip="0.05"),
               Polar("CRM-HL", "crmhl", [arguments.slat, arguments.main, arguments.flap], 5e6, (4, 16, 4),
                     (4, 8, 12, 16), ["--chord", "1", "--vertices", "30000"])]
     tasks = []

@@ -219,30 +219,17 @@ private:
             int boundary_elements = 0, has_parents = 0;
             require(cg_section_read(file_, 1, 1, s, name, &type, &first, &last, &boundary_elements, &has_parents));
             if (type == NODE) continue;
-            const CgnsElement* const element = is_in_space() ? find_element_in_space(type) : find_cgns_element(type);
-            if (element == nullptr && is_in_space())
-                fail(
-                    fmt::format("section '{}' has elements {}: in space only prisms, hexahedra, and their faces can be "
-                                "read",
-                                name, cg_ElementTypeName(type)));
-            if (element == nullptr)
-                fail(fmt::format(
-                    "section '{}' has elements {}: only bars, triangles and quadrilaterals with all nodes of "
-                    "orders 1 to 4 can be read",
-                    name, cg_ElementTypeName(type)));
+            const CgnsElement* const element = &element_of_section(type, name);
             if (order_ != 0 && element->order != order_) fail("elements of several orders");
             order_ = element->order;
             require(cg_ElementDataSize(file_, 1, 1, s, &size));
             const bool is_volume = type == PENTA_6 || type == HEXA_8;
-            const auto of_element = static_cast<cgsize_t>(is_volume ? 2 * element->corners : element->nodes());
+            const auto of_element =
+                static_cast<cgsize_t>(is_volume ? std::size_t{2} * element->corners : element->nodes());
             if (first < 1 || last < first || size < 0 || static_cast<std::uintmax_t>(size) > bytes_ ||
                 size / of_element != last - first + 1 || size % of_element != 0)
                 fail(fmt::format("section '{}' has not the elements {} to {}", name, first, last));
-            std::vector<cgsize_t> nodes(static_cast<std::size_t>(size));
-            require(cg_elements_read(file_, 1, 1, s, nodes.data(), nullptr));
-            for (const cgsize_t node : nodes)
-                if (node < 1 || static_cast<std::size_t>(node) > points_)
-                    fail(fmt::format("section '{}': vertex {} where there are {}", name, node, points_));
+            const std::vector<cgsize_t> nodes = nodes_of_section(s, name, static_cast<std::size_t>(size));
             if (is_volume)
                 add_volumes(name, element->corners, nodes);
             else if (is_in_space())
@@ -252,6 +239,23 @@ private:
         }
     }
     bool is_in_space() const { return cell_dimension_ == 3; }
+    const CgnsElement& element_of_section(ElementType_t type, const std::string& name) const {
+        const CgnsElement* const element = is_in_space() ? find_element_in_space(type) : find_cgns_element(type);
+        if (element == nullptr)
+            fail(fmt::format("section '{}' has elements {}: only {} can be read", name, cg_ElementTypeName(type),
+                             is_in_space() ? "prisms, hexahedra and their faces"
+                                           : "bars, triangles and quadrilaterals with all nodes of orders 1 to 4"));
+        return *element;
+    }
+    /// Returns the numbers of a section's nodes, so many, from 1 on.
+    std::vector<cgsize_t> nodes_of_section(int section, const std::string& name, std::size_t count) const {
+        std::vector<cgsize_t> nodes(count);
+        require(cg_elements_read(file_, 1, 1, section, nodes.data(), nullptr));
+        for (const cgsize_t node : nodes)
+            if (node < 1 || static_cast<std::size_t>(node) > points_)
+                fail(fmt::format("section '{}': vertex {} where there are {}", name, node, points_));
+        return nodes;
+    }
     /// Returns the element that is one face of this one, or the face itself; null where there is none.
     static const CgnsElement* find_element_in_space(ElementType_t type) {
         if (type == TRI_3 || type == PENTA_6) return &cgns_element(3, 1);

@@ -212,7 +212,7 @@ private:
         return false;
     }
     /// Returns the values of the mesh's vertices out of those of all points.
-    std::vector<double> at_vertices(std::vector<double> values) const {
+    std::vector<double> at_vertices(const std::vector<double>& values) const {
         return is_in_space_ && values.size() == xml_.points() ? chosen(values, plane_.nodes) : values;
     }
 
