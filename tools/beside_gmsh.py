@@ -98,7 +98,8 @@ def run_lamina(lamina, order, folder):
     start = seconds_of(resource.RUSAGE_CHILDREN)
     subprocess.run([lamina, "mesh", "naca:0012", "--surface-points", str(EDGES), "--first-height", str(FIRST_HEIGHT),
                     "--growth", str(GROWTH), "--layers", str(LAYERS), "--layer-topology", "quads", "--far-field", "10",
-                    "--gradation", "0.2", "--order", str(order), "--threads", "1", "-o", file, "--quiet"], check=True, stderr=subprocess.DEVNULL)
+                    "--gradation", "0.2", "--order", str(order), "--threads", "1", "-o",
+                    file, "--quiet"], check=True, stderr=subprocess.DEVNULL)
     seconds = seconds_of(resource.RUSAGE_CHILDREN) - start
     begin()
     gmsh.open(str(file))

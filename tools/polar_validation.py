@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Computes polars with OpenFOAM, on one mesh that serves all angles and on a mesh for each, and compares them.
 
-  polar_validation.py LAMINA FOLDER PAGE FX63137 LS417 SLAT MAIN FLAP [--jobs N]
+  polar_validation.py LAMINA FOLDER PAGE FX63137 LS417 SLAT MAIN FLAP [--jobs N] [--iterations N]
 
 The last five are coordinates of the sections FX 63-137 and LS(1)-0417 and of the three elements of the CRM-HL. FOLDER
 holds the cases. What is there already is not run again, so that an interrupted run goes on. The section "Polars" of
@@ -12,8 +12,8 @@ import argparse
 import concurrent.futures
 import csv
 import datetime
-import os
 import json
+import os
 import pathlib
 import subprocess
 import sys
@@ -22,6 +22,8 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
+
+from solver_validation import run_case
 
 # C. L. Ladson, NASA TM 4074 (1988): NACA 0012, Re 6e6, transition fixed by grit of number 80. Angle, CL, CD; from
 # NASA's Turbulence Modeling Resource.
@@ -50,18 +52,13 @@ class Polar:
             raise RuntimeError(f"{out}.log: exit code {code}")
         return f"{self.title}: one mesh, {len(self.read_one_mesh(folder))} angles"
 
-    def run_own_mesh(self, program, folder, alpha):
+    def run_own_mesh(self, program, folder, alpha, iterations):
         """Returns what to say about one angle on its own mesh."""
         case = folder / f"{self.name}_{alpha}"
-        if not (case / "result.json").exists():
-            log = folder / f"{self.name}_{alpha}.log"
-            if run([program, "case", "openfoam", *self.arguments, "--alpha", f"{alpha}", "-o", case, "--overwrite"], log):
-                raise RuntimeError(f"{log}: no case")
-            run([case / "Allclean"], log)  # what an interrupted run left
-            if run([case / "Allrun"], log) not in (0, 2):  # 2: not steady
-                raise RuntimeError(f"{log}: the solver failed")
-        result = self.read_own_mesh(folder)[alpha]
-        return f"{self.title}, {alpha} degrees on its own mesh: CL {result['CL']:.4f}, CD {result['CD']:.6f}"
+        command = [program, "case", "openfoam", *self.arguments, "--alpha", f"{alpha}", "-o", case]
+        if not case.is_dir() and run(command, folder / f"{self.name}_{alpha}.log"):
+            raise RuntimeError(f"{case}.log: no case")
+        return f"{self.title} on its own mesh: {run_case(case, iterations)}"
 
     def read_one_mesh(self, folder):
         """Returns the rows of the polar on one mesh by angle."""
@@ -149,13 +146,14 @@ def draw(polars, program, folder, picture):
     plt.close(figure)
 
 
-def section(polars, folder, picture):
+def section(polars, folder, picture, iterations):
     """Returns the section of the page."""
     today = datetime.date.today().isoformat()
     lines = [HEADING, "", f"`./dev test-polars FX63137 LS417 SLAT MAIN FLAP` wrote this section on {today}: simpleFoam with",
              "Spalart and Allmaras's model, turbulent from the nose on. On one mesh (`lamina polar --solver openfoam`) each",
              "angle begins with the flow of the one before; on meshes of their own (`lamina case openfoam`) each begins from",
-             "rest. The last two columns say how far the former are from the latter.", ""]
+             f"rest. Runs have at most {iterations:,} iterations. The last two columns say how far the former are from the",
+             "latter.", ""]
     lines += table(polars, folder)
     lines += ["", f"![Lift over the angle, and drag over lift](images/{picture.name})", "",
               "Experiment: C. L. Ladson, NASA TM 4074 (1988), as NASA's Turbulence Modeling Resource gives it."]
@@ -170,10 +168,11 @@ def main():
     for name in ("fx63137", "ls417", "slat", "main", "flap"):
         parser.add_argument(name, type=pathlib.Path)
     parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--iterations", type=int, default=3000)
     arguments = parser.parse_args()
     folder = arguments.folder.resolve()
     folder.mkdir(parents=True, exist_ok=True)
-    os.environ.setdefault("OMP_NUM_THREADS", "1")
+    os.environ["ITERATIONS"] = str(arguments.iterations)  # of Allrun
 
     angles, own = (0, 16, 2), (0, 4, 8, 10, 12, 14, 16)
     polars = [Polar("NACA 0012", "naca0012", ["naca:0012"], 6e6, angles, own, experiment=LADSON, trip="0.05"),
@@ -185,7 +184,8 @@ def main():
     tasks = []
     for polar in polars:
         tasks.append(lambda polar=polar: polar.run_on_one_mesh(arguments.program, folder))
-        tasks += [lambda polar=polar, alpha=alpha: polar.run_own_mesh(arguments.program, folder, alpha)
+        tasks += [lambda polar=polar, alpha=alpha: polar.run_own_mesh(arguments.program, folder, alpha,
+                                                                              arguments.iterations)
                   for alpha in polar.own_angles]
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
         for text in pool.map(lambda task: task(), tasks):
@@ -193,7 +193,7 @@ def main():
     picture = arguments.page.parent / "images" / "validation-polars.png"
     draw(polars, arguments.program, folder, picture)
     before = arguments.page.read_text().split(f"\n{HEADING}\n")[0]
-    arguments.page.write_text(before + "\n" + section(polars, folder, picture))
+    arguments.page.write_text(before + "\n" + section(polars, folder, picture, arguments.iterations))
     print(f"wrote {arguments.page} and {picture}")
 
 

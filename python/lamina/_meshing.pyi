@@ -185,7 +185,7 @@ class MeshOptions(TypedDict, total=False):
     # the far field is two markers: inlet, where a uniform flow at the angle of attack enters, and outlet
     inlet_outlet: bool | None
     # order of the cells: 1 for straight ones, 2 to 4 for curved ones that follow the walls, each proved valid;
-    # MSH, VTU and CGNS alone; >= 1 and <= 4 [1]
+    # MSH, VTU, CGNS, MFEM and Nektar++ alone; >= 1 and <= 4 [1]
     order: int | None
     # number of threads; 0: one per core; never changes the mesh; >= 0 and <= 1024 [0]
     threads: int | None

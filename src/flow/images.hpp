@@ -57,7 +57,8 @@ inline std::vector<Image> copies_in_row(double pitch) {
 
 /// Returns the images in these walls, or the copies in a row. Those in two walls have images themselves, without end,
 /// of alternating circulation: their sum ends with half of a term, so that it is in the middle of its last two values.
-/// Sources do not alternate, and their last images stand for all beyond.
+/// Sources do not alternate, and their last images stand for all beyond; those on bases, which displace little, count as
+/// the sheets that they belong to.
 inline std::vector<Image> images_in(const FlowWalls& walls) {
     if (walls.pitch) return copies_in_row(*walls.pitch);
     if (!walls.below && !walls.above) return {};

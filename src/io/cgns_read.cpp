@@ -149,10 +149,8 @@ private:
         std::vector<double> read(points_);
         const cgsize_t first = 1, last = static_cast<cgsize_t>(points_);
         require(cg_field_read(file_, 1, 1, solution, array.c_str(), RealDouble, &first, &last, read.data()));
-        if (!is_in_space()) return read;
-        std::vector<double> of_plane;
-        for (const std::uint32_t node : plane_.nodes) of_plane.push_back(read[node]);
-        return of_plane;
+        if (is_in_space()) return values_at(read, plane_.nodes);
+        return read;
     }
 
     void read_zone() {
@@ -219,23 +217,23 @@ private:
             int boundary_elements = 0, has_parents = 0;
             require(cg_section_read(file_, 1, 1, s, name, &type, &first, &last, &boundary_elements, &has_parents));
             if (type == NODE) continue;
-            const CgnsElement* const element = &element_of_section(type, name);
-            if (order_ != 0 && element->order != order_) fail("elements of several orders");
-            order_ = element->order;
+            const CgnsElement& element = element_of_section(type, name);
+            if (order_ != 0 && element.order != order_) fail("elements of several orders");
+            order_ = element.order;
             require(cg_ElementDataSize(file_, 1, 1, s, &size));
             const bool is_volume = type == PENTA_6 || type == HEXA_8;
             const auto of_element =
-                static_cast<cgsize_t>(is_volume ? std::size_t{2} * element->corners : element->nodes());
+                static_cast<cgsize_t>(is_volume ? std::size_t{2} * element.corners : element.nodes());
             if (first < 1 || last < first || size < 0 || static_cast<std::uintmax_t>(size) > bytes_ ||
                 size / of_element != last - first + 1 || size % of_element != 0)
                 fail(fmt::format("section '{}' has not the elements {} to {}", name, first, last));
             const std::vector<cgsize_t> nodes = nodes_of_section(s, name, static_cast<std::size_t>(size));
             if (is_volume)
-                add_volumes(name, element->corners, nodes);
+                add_volumes(name, element.corners, nodes);
             else if (is_in_space())
-                add_faces(name, element->corners, first, nodes);
+                add_faces(name, element.corners, first, nodes);
             else
-                add_section(name, *element, first, nodes);
+                add_section(name, element, first, nodes);
         }
     }
     bool is_in_space() const { return cell_dimension_ == 3; }
@@ -396,7 +394,7 @@ private:
     void gather_extrusion() {
         space_.points = std::exchange(mesh_.points, {});
         plane_ = plane_of_extrusion(space_, conditions_.size(), name_);
-        for (const std::uint32_t node : plane_.nodes) mesh_.points.push_back(space_.points[node]);
+        mesh_.points = std::move(plane_.points);
         mesh_.triangles = std::move(plane_.triangles);
         mesh_.quads = std::move(plane_.quads);
         for (std::size_t m = 0; m < conditions_.size(); ++m) {

@@ -351,7 +351,7 @@ private:
         add_faces(4, mesh_.quads, quad_groups_);
         space_.points = std::exchange(mesh_.points, {});
         PlaneOfExtrusion plane = plane_of_extrusion(space_, markers.size(), file_);
-        for (const std::uint32_t node : plane.nodes) mesh_.points.push_back(space_.points[node]);
+        mesh_.points = std::move(plane.points);
         mesh_.triangles = std::move(plane.triangles);
         mesh_.quads = std::move(plane.quads);
         edges_.clear();  // lines of the file, if any, are edges of faces

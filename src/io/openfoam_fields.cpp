@@ -16,6 +16,7 @@
 #include "io/foam_words.hpp"
 #include "io/formats.hpp"
 #include "io/number_text.hpp"
+#include "io/plane_of_extrusion.hpp"
 
 namespace lamina::io {
 
@@ -118,7 +119,7 @@ Solution read_openfoam_solution(const fs::path& folder, std::span<const FieldReq
             throw InputError({file.string(), 0, {}},
                              fmt::format("{} values where the mesh has {} cells", all.size(), cells.cells_in_files));
         SolutionField field{request.name, true, {}};
-        for (const std::uint32_t cell : cells.numbers) field.values.push_back(all[read.uniform ? 0 : cell]);
+        field.values = read.uniform ? std::vector<double>(cells.numbers.size(), all[0]) : values_at(all, cells.numbers);
         solution.fields.push_back(std::move(field));
     }
     return solution;

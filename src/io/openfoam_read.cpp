@@ -199,7 +199,7 @@ private:
 
     void gather_plane() {
         PlaneOfExtrusion plane = plane_of_extrusion(space_, patches_.size(), folder_);
-        for (const std::uint32_t node : plane.nodes) mesh_.points.push_back(space_.points[node]);
+        mesh_.points = std::move(plane.points);
         mesh_.triangles = std::move(plane.triangles);
         mesh_.quads = std::move(plane.quads);
         numbers_ = std::move(plane.volumes);

@@ -60,6 +60,7 @@ private:
             if (plane_[node] != 0) continue;
             column_[node] = static_cast<std::uint32_t>(result_.nodes.size());
             result_.nodes.push_back(node);
+            result_.points.push_back(mesh_.points[node]);
         }
         if (result_.nodes.size() * planes_.size() != plane_.size())
             fail(fmt::format("{} of its {} nodes lie in the lowest of {} planes", result_.nodes.size(), plane_.size(),
@@ -206,6 +207,13 @@ private:
 };
 
 }  // namespace
+
+std::vector<double> values_at(std::span<const double> values, std::span<const std::uint32_t> indices) {
+    std::vector<double> result;
+    result.reserve(indices.size());
+    for (const std::uint32_t i : indices) result.push_back(values[i]);
+    return result;
+}
 
 PlaneOfExtrusion plane_of_extrusion(const SpaceMesh& mesh, std::size_t markers, const std::filesystem::path& file) {
     return Collapse(mesh, file).run(markers);

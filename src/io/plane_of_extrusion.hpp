@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <vector>
 
 #include <lamina/mesh.hpp>
@@ -34,11 +35,15 @@ struct SpaceMesh {
 /// A plane mesh, and where its parts stand in the mesh in space.
 struct PlaneOfExtrusion {
     std::vector<std::uint32_t> nodes;  ///< per vertex: its node in the lowest plane, ascending
+    std::vector<Point> points;         ///< per vertex
     std::vector<Triangle> triangles;
     std::vector<Quad> quads;
     std::vector<std::uint32_t> volumes;       ///< per triangle, then per quad: the volume on it, ascending in each
     std::vector<std::vector<Segment>> edges;  ///< per marker: the edges that its faces stand on, in the order of faces
 };
+
+/// Returns the values with these indices, such as those of the nodes of the lowest plane.
+std::vector<double> values_at(std::span<const double> values, std::span<const std::uint32_t> indices);
 
 /// Returns the plane mesh. Cells run counter-clockwise, and edges as the first face on them, for programs do not agree
 /// on either. Faces in the lowest and in the highest plane make no edges.

@@ -154,7 +154,7 @@ private:
             space.faces.push_back({face.corners, face.nodes, marker});
         }
         PlaneOfExtrusion plane = plane_of_extrusion(space, markers.size(), file_);
-        for (const std::uint32_t node : plane.nodes) mesh_.points.push_back(space.points[node]);
+        mesh_.points = std::move(plane.points);
         mesh_.triangles = std::move(plane.triangles);
         mesh_.quads = std::move(plane.quads);
         for (const auto& [surface, marker] : markers)

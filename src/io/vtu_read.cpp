@@ -68,13 +68,6 @@ bool is_ignored(std::uint8_t type) { return type == vtk_vertex || type == vtk_po
 
 bool is_volume(std::uint8_t type) { return type == vtk_wedge || type == vtk_hexahedron; }
 
-/// Returns the values with these indices.
-std::vector<double> chosen(const std::vector<double>& values, std::span<const std::uint32_t> indices) {
-    std::vector<double> result;
-    for (const std::uint32_t i : indices) result.push_back(values[i]);
-    return result;
-}
-
 /// The values of an array one after the other. Of an array that is stored raw only some are in memory at a time.
 template <class T>
 class ValuesInOrder {
@@ -213,7 +206,7 @@ private:
     }
     /// Returns the values of the mesh's vertices out of those of all points.
     std::vector<double> at_vertices(const std::vector<double>& values) const {
-        return is_in_space_ && values.size() == xml_.points() ? chosen(values, plane_.nodes) : values;
+        return is_in_space_ && values.size() == xml_.points() ? values_at(values, plane_.nodes) : values;
     }
 
     std::vector<double> part(const FieldRequest& request, const std::string& array, std::size_t tuples) const {
@@ -299,7 +292,7 @@ private:
         std::int64_t first = 0;
         for (std::size_t i = 0; i < xml_.cells(); ++i) first = read_cell_in_space(i, first, arrays, space);
         plane_ = plane_of_extrusion(space, mesh_.markers.size(), file_);
-        for (const std::uint32_t node : plane_.nodes) mesh_.points.push_back(space.points[node]);
+        for (const Point p : plane_.points) mesh_.points.push_back(p);
         for (const Triangle& triangle : plane_.triangles) mesh_.triangles.push_back(triangle);
         for (const Quad& quad : plane_.quads) mesh_.quads.push_back(quad);
         for (std::size_t m = 0; m < mesh_.markers.size(); ++m) mesh_.markers[m].edges = std::move(plane_.edges[m]);

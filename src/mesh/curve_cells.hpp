@@ -41,10 +41,10 @@ struct CurvedCells {
 /// bend against H rather than against the height of a cell: the derivative across the column changes by d / H, and that
 /// along it by d'.
 ///
-/// Where the smallest determinant of a cell cannot be proved to be more than 0.02 of its largest one, and is less than
-/// half of that when the cell is straight, the bends of the edges that move it are halved, and become 0 after six
-/// times: what is not valid has none. Throws MeshError where a cell is not valid even so. Precondition: check_mesh()
-/// finds no defect; the edges are on the boundary, each given once; quadrilaterals at them are in columns.
+/// The bends of the edges that move a cell are halved, and become 0 after six times, where its scaled determinant, the
+/// smallest one over the largest, cannot be proved to be 0.02 and is less than half of what it is when the cell is
+/// straight. Cells that are not valid have 0. Throws MeshError where a cell is not valid even so. Precondition:
+/// check_mesh() finds no defect; the edges are on the boundary, each given once; quadrilaterals at them are in columns.
 LAMINA_EXPORT CurvedCells curve_cells(const MeshView& mesh, unsigned order, std::span<const WallCurve> walls,
                                       const CellColumnNumbers& columns);
 

@@ -51,7 +51,7 @@ OptionTable<CaseOptions> make_pipeline_rows() {
     files.count(
         "order", "P",
         "order of the cells: 1 for straight ones, 2 to 4 for curved ones that follow the walls, each proved valid; "
-        "MSH, VTU and CGNS alone",
+        "MSH, VTU, CGNS, MFEM and Nektar++ alone",
         numbers_from_to(1, max_cell_order), member_at(&CaseOptions::order));
     run.count("threads", "N", "number of threads; 0: one per core; never changes the mesh", numbers_from_to(0, 1024),
               member_at(&CaseOptions::threads));

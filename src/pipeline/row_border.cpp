@@ -147,7 +147,9 @@ RowBorder border_below(std::vector<std::vector<Point>> fronts, std::span<const s
                        const decoupling::FarField& far_field) {
     constexpr double smoothed_share = 0.2;  // of the pitch
     constexpr double most_smoothed = 0.3;   // of the columns
-    constexpr double kept_along = 0.02;     // of the pitch, beside the ends of outlines
+    // Of the pitch, beside the ends of outlines. 24 rows with lines and sheets: without it three have angles below the
+    // bound (18.4 degrees), with 0.02 and 0.05 none, for as many triangles within 0.6 %.
+    constexpr double kept_along = 0.02;
     const double pitch = far_field.pitch;
     geometry::Channel channel = geometry::channel_below(fronts, pitch, columns);
     fill_gaps(channel);
