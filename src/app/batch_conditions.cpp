@@ -69,7 +69,7 @@ NamedText parse_named(const std::string& text, const char* flag, const char* for
     const FormerOption* former = find_former_option(name);
     throw UsageError(
         fmt::format("option {}: there is no option '{}'{}", flag, name,
-                    former ? ": " + advice_on_command_line(*former) : did_you_mean(closest_word(name, names))));
+                    former ? ": " + advice_on_command_line(*former) : did_you_mean(meant_option(name, names))));
 }
 
 /// Reads "reynolds=1e5,1e6".

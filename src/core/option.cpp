@@ -47,7 +47,7 @@ const char* option_kind_name(OptionKind kind) {
 }
 
 void fail_unknown_key(const std::string& key, const std::vector<std::string>& known) {
-    throw OptionError(key, "no such option" + did_you_mean(closest_word(key, known)));
+    throw OptionError(key, "no such option" + did_you_mean(meant_option(key, known)));
 }
 
 bool OptionRange::contains(double value) const {

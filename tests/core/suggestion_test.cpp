@@ -31,5 +31,18 @@ TEST(Suggestion, TheClosestWordIsTheFirstOfEquals) {
     EXPECT_EQ(did_you_mean("growth"), ": did you mean 'growth'?");
 }
 
+TEST(Suggestion, NamesOfOtherProgramsAreUnderstoodWhereTheirOptionIsKnown) {
+    EXPECT_EQ(option_elsewhere("--AoA"), "alpha");
+    EXPECT_EQ(option_elsewhere("firstLayer_Height"), "first-height");
+    EXPECT_EQ(option_elsewhere("alpha"), "");
+    const std::vector<std::string> keys{"alpha", "first_height", "growth", "reynolds"};
+    EXPECT_EQ(meant_option("aoa", keys), "alpha");
+    EXPECT_EQ(meant_option("re", keys), "reynolds");
+    EXPECT_EQ(meant_option("h0", keys), "first_height");
+    EXPECT_EQ(meant_option("grwoth", keys), "growth");
+    EXPECT_EQ(meant_option("ncpu", keys), "");  // threads are not among them
+    EXPECT_EQ(meant_option("", keys), "");
+}
+
 }  // namespace
 }  // namespace lamina::test

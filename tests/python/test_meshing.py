@@ -196,6 +196,13 @@ def test_former_options_name_what_serves_in_their_place(key, advice):
     assert caught.value.option == key
 
 
+@pytest.mark.parametrize("word, key", [("re", "reynolds"), ("aoa", "alpha"), ("firstLayerHeight", "first_height"),
+                                       ("groth", "growth")])
+def test_unknown_options_name_the_one_that_was_meant(word, key):
+    with pytest.raises(lamina.OptionError, match=f"{word}: no such option: did you mean '{key}'"):
+        lamina.mesh("naca:0012", **{word: 1})
+
+
 def test_progress_and_what_it_raises():
     stages = []
     lamina.mesh("naca:0012", progress=lambda stage, estimate: stages.append((stage, estimate)))
