@@ -16,6 +16,7 @@
 //     assert(check_curved(mesh, nodes).invalid == 1);
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include <lamina/mesh.hpp>
@@ -24,9 +25,17 @@ namespace lamina {
 
 inline constexpr unsigned max_cell_order = 4;  ///< the highest order of curved cells
 
+/// Where the nodes of a cell are on the straight cell: x_0 = 0 to x_p = 1 along its edges, (x_i, x_j) in a square, and
+/// in a triangle at the barycentric coordinates x_k, x_i and x_j over their sum, where i + j + k = p. Up to order 2 both
+/// are the same.
+enum class NodeDistribution : std::uint8_t {
+    equidistant,   ///< x_i = i / p: MSH, VTU, CGNS and others
+    gauss_lobatto  ///< the points of Gauss and Lobatto's quadrature: MFEM and Nektar++
+};
+
 /// The nodes of a mesh of higher order beside its vertices. Node i of these has the number mesh.points.size() + i. Each
-/// cell is the image of a straight one by Lagrange's polynomials of its order, whose nodes are evenly spaced on the
-/// straight cell. Those beside its corners are listed edge by edge, from each corner to the next, then those inside,
+/// cell is the image of a straight one by Lagrange's polynomials of its order, whose nodes are on the straight cell as
+/// `distribution` says. Those beside its corners are listed edge by edge, from each corner to the next, then those inside,
 /// which are ordered as the nodes of a smaller cell (the order of Gmsh):
 ///
 ///        order 2     order 3          order 4                order 3
@@ -40,7 +49,8 @@ inline constexpr unsigned max_cell_order = 4;  ///< the highest order of curved 
 ///                                     |           .
 ///                                     0--3--4--5---1
 struct CurvedNodes {
-    unsigned order = 1;                      ///< 1: no nodes, the cells are straight
+    unsigned order = 1;  ///< 1: no nodes, the cells are straight
+    NodeDistribution distribution = NodeDistribution::equidistant;
     std::vector<Point> points{};             ///< the nodes
     std::vector<VertexId> triangle_nodes{};  ///< per triangle (order + 1) (order + 2) / 2 - 3 of them
     std::vector<VertexId> quad_nodes{};      ///< per quadrilateral (order + 1)^2 - 4

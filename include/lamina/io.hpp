@@ -69,14 +69,16 @@ struct ReadOptions {
 /// Reads a mesh. Throws InputError (with the line, for text formats) where the file is malformed.
 LAMINA_EXPORT Mesh read_mesh(const std::filesystem::path& file, const ReadOptions& options = {});
 
-/// Writes a mesh with curved cells: MSH, VTU and CGNS. Throws UsageError for other formats, and what write_mesh()
-/// throws.
+/// Writes a mesh with curved cells. Throws what require_curved_format() and write_mesh() throw.
 LAMINA_EXPORT void write_curved_mesh(const MeshView& mesh, const CurvedNodes& nodes, const std::filesystem::path& file,
                                      const WriteOptions& options = {});
-/// Throws UsageError for formats that do not hold curved cells, in one line that names those that do.
-LAMINA_EXPORT void require_curved_format(const std::filesystem::path& file, const WriteOptions& options = {});
-/// Reads a mesh whose cells may be curved, all of one order: MSH, VTU and CGNS. Other formats are read as read_mesh()
-/// does; their order is 1. Throws InputError where the file is malformed.
+/// Throws UsageError for formats that do not hold curved cells of this order with such nodes, in one line that names
+/// those that do. At order 2 nodes are evenly spaced.
+LAMINA_EXPORT void require_curved_format(const std::filesystem::path& file, const WriteOptions& options = {},
+                                         unsigned order = 2,
+                                         NodeDistribution distribution = NodeDistribution::equidistant);
+/// Reads a mesh whose cells may be curved, all of one order: MSH, VTU and CGNS. Other formats are read as
+/// read_mesh() does; their order is 1. Throws InputError where the file is malformed.
 LAMINA_EXPORT CurvedMesh read_curved_mesh(const std::filesystem::path& file, const ReadOptions& options = {});
 
 /// Writes wall_vertices() as CSV, one line each: marker, vertex (from 0), x, y, arc length, unit normal and first

@@ -73,8 +73,9 @@ struct CaseOptions {
     /// The order of the cells: 1 makes straight ones, and up to max_cell_order curved ones that follow the walls
     /// (MeshResult::curved). Needs layers of topology quads or layered, or none; excludes sheets and rows of blades.
     unsigned order = 1;
-    WorkLimits limits{};   ///< runs beyond them are refused
-    unsigned threads = 0;  ///< number of threads; 0: one per core
+    NodeDistribution node_distribution = NodeDistribution::equidistant;  ///< where the nodes of curved cells are
+    WorkLimits limits{};                                                 ///< runs beyond them are refused
+    unsigned threads = 0;                                                ///< number of threads; 0: one per core
 };
 
 /// Throws OptionError where an option of any stage is out of range, where a y+ or the use of the flow lacks its

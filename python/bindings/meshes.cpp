@@ -177,14 +177,16 @@ SharedMesh mesh_of_arrays(const PointsArgument& points, const RowsArgument<std::
     return shared(std::move(mesh));
 }
 
-/// Returns (order, points, and the nodes of triangles, quadrilaterals and markers) as CurvedNodes has them.
+/// Returns (order, points, the nodes of triangles, quadrilaterals and markers, whether they are Gauss and Lobatto's) as
+/// CurvedNodes has them.
 nb::tuple curved_nodes(const SharedMesh& mesh) {
     const nb::capsule owner(new std::shared_ptr<const CurvedNodes>(mesh.nodes),
                             [](void* p) noexcept { delete static_cast<std::shared_ptr<const CurvedNodes>*>(p); });
     const auto ids = [&](const std::vector<VertexId>& list) { return view<std::uint32_t>(list, owner); };
     const CurvedNodes& nodes = *mesh.nodes;
     return nb::make_tuple(nodes.order, view<double>(nodes.points, owner), ids(nodes.triangle_nodes),
-                          ids(nodes.quad_nodes), ids(nodes.marker_nodes));
+                          ids(nodes.quad_nodes), ids(nodes.marker_nodes),
+                          nodes.distribution == NodeDistribution::gauss_lobatto);
 }
 
 using NodeNumbers = ListArgument<std::uint32_t>;
@@ -192,8 +194,10 @@ using NodeNumbers = ListArgument<std::uint32_t>;
 /// Returns the mesh with the curved cells of these nodes. Throws InputError where these do not fit it.
 SharedMesh with_curved_nodes(const SharedMesh& mesh, unsigned order, const PointsArgument& points,
                              const NodeNumbers& triangle_nodes, const NodeNumbers& quad_nodes,
-                             const NodeNumbers& marker_nodes) {
-    CurvedNodes nodes{.order = order, .points = points_of(points)};
+                             const NodeNumbers& marker_nodes, bool is_lobatto) {
+    CurvedNodes nodes{.order = order,
+                      .distribution = is_lobatto ? NodeDistribution::gauss_lobatto : NodeDistribution::equidistant,
+                      .points = points_of(points)};
     const std::size_t first = (*mesh).points.size(), end = first + nodes.points.size();
     const auto take = [&](const NodeNumbers& given, std::size_t expected, std::vector<VertexId>& list) {
         if (given.shape(0) != expected) throw InputError({}, "the nodes of curved cells do not fit their order");

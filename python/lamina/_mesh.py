@@ -249,14 +249,19 @@ class Mesh:
         return MappingProxyType({name: _KINDS[kind] for name, kind, _ in self._markers})
 
     @cached_property
-    def _curved(self) -> tuple[int, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-        order, places, triangles, quads, edges = self._data.curved_nodes()
-        return order, places, signed(triangles), signed(quads), signed(edges)
+    def _curved(self) -> tuple[int, np.ndarray, np.ndarray, np.ndarray, np.ndarray, bool]:
+        order, places, triangles, quads, edges, is_lobatto = self._data.curved_nodes()
+        return order, places, signed(triangles), signed(quads), signed(edges), is_lobatto
 
     @property
     def order(self) -> int:
         """The order of the cells: 1 where they are straight, else 2 to 4."""
         return self._curved[0]
+
+    @property
+    def node_distribution(self) -> str:
+        """Where the nodes of curved cells are on straight ones: "equidistant" or "gauss-lobatto"."""
+        return "gauss-lobatto" if self._curved[5] else "equidistant"
 
     @cached_property
     def nodes(self) -> np.ndarray:
@@ -284,7 +289,7 @@ class Mesh:
                                          |           .
                                          0--3--4--5---1
         """
-        _, _, triangle_nodes, quad_nodes, _ = self._curved
+        _, _, triangle_nodes, quad_nodes, _, _ = self._curved
         along = self.order + 1  # nodes along an edge
         return MappingProxyType({"triangles": self._nodes_of(self.triangles, triangle_nodes, along * (along + 1) // 2),
                                  "quads": self._nodes_of(self.quads, quad_nodes, along**2)})
@@ -546,7 +551,7 @@ class Mesh:
         return len(self.triangles) + len(self.quads)
 
     def __eq__(self, other: object) -> bool:
-        if not isinstance(other, Mesh) or self.hash != other.hash or self.order != other.order:
+        if not isinstance(other, Mesh) or self.hash != other.hash or self._curved[0::5] != other._curved[0::5]:
             return False
         # The hash knows corners alone. Nodes, as cells, may be numbered otherwise.
         return self.order == 1 or np.array_equal(np.unique(self.nodes, axis=0), np.unique(other.nodes, axis=0))
@@ -574,7 +579,7 @@ class Mesh:
             name: np.array(getattr(self, name))
             for name in ("points", "triangles", "quads", "region", "piece", "layer", "constraints")}
         arrays["markers"] = [(name, kind, np.array(edges)) for name, kind, edges in self._markers]
-        curved = tuple(np.array(part) for part in self._data.curved_nodes()[1:]) if self.order > 1 else ()
+        curved = (*(np.array(part) for part in self._data.curved_nodes()[1:5]), self._curved[5]) if self.order > 1 else ()
         return {"arrays": arrays, "order": self.order, "curved": curved, "warnings": list(self._warnings),
                 "facts": self._facts, "columns": tuple(np.array(part) for part in self._columns)}
 

@@ -49,7 +49,8 @@ void convert(const ConvertArguments& arguments) {
     const SignalGuard guard(outputs);
     StoredMesh mesh = read_stored_mesh(arguments.from, {.format = arguments.from_format, .curved = true});
     const bool is_curved = mesh.curved().order > 1;
-    if (is_curved) require_curved_format(arguments.to, arguments.options);
+    if (is_curved)
+        require_curved_format(arguments.to, arguments.options, mesh.curved().order, mesh.curved().distribution);
     const std::string name = input_name(arguments.from);
     set_kind(mesh.markers(), arguments.walls, MarkerKind::wall, name);
     set_kind(mesh.markers(), arguments.far_fields, MarkerKind::far_field, name);

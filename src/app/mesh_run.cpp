@@ -91,7 +91,9 @@ MeshDestination destination_of_outputs(const MeshCase& mesh_case) {
     destination.holds_curved_cells = true;
     destination.require_writable = [&mesh_case, is_curved] {
         for (const std::string& output : mesh_case.outputs) {
-            if (is_curved) require_curved_format(output, write_options(mesh_case));
+            if (is_curved)
+                require_curved_format(output, write_options(mesh_case), mesh_case.options.order,
+                                      mesh_case.options.node_distribution);
             check_writable(output, write_options(mesh_case));
         }
     };

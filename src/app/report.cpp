@@ -59,7 +59,9 @@ Json input_report(const Geometry& geometry) {
 }
 
 Json curved_report(const MeshResult& result) {
+    const bool is_even = result.curved.distribution == NodeDistribution::equidistant;
     return {{"order", result.curved.order},
+            {"node_distribution", is_even ? "equidistant" : "gauss-lobatto"},
             {"wall_edges", result.curving.wall_edges},
             {"curved_wall_edges", result.curving.curved_edges},
             {"reduced_wall_edges", result.curving.reduced_edges},

@@ -91,6 +91,8 @@ void prepare_case(FlowSolver solver, SolverCaseOptions& options, MeshCase& mesh_
         throw OptionError("alpha", "a case is for one angle of attack; lamina polar runs a range of them");
     if (solver != FlowSolver::pyfr && mesh_case.options.order > 1)
         throw OptionError("order", "the cells of a case are straight, but for those of pyfr");
+    if (mesh_case.options.node_distribution != NodeDistribution::equidistant)
+        throw OptionError("node_distribution", "the mesh of a case is MSH, whose nodes are evenly spaced");
     options.compressible = mesh_case.options.conditions.mach.has_value();
     validate(solver, options, mesh_case.options.conditions.mach);
     if (mesh_case.options.far_field.pitch && mesh_case.options.conditions.mach.value_or(0) >= 1)

@@ -283,7 +283,8 @@ FormatRow mfem_row() {
             .write = write_one_straight_file<write_mfem>,
             .files = one_file,
             .write_curved = write_one_curved_file<write_mfem>,
-            .one_stream = true};
+            .one_stream = true,
+            .gauss_lobatto = true};
 }
 
 FormatRow nektar_row() {
@@ -294,7 +295,8 @@ FormatRow nektar_row() {
             .files = one_file,
             .write_curved = write_one_curved_file<write_nektar>,
             .one_stream = true,
-            .internal_markers = true};
+            .internal_markers = true,
+            .gauss_lobatto = true};
 }
 
 FormatRow triangle_row() {

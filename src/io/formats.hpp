@@ -66,6 +66,7 @@ struct FormatRow {
     bool quads = true;              ///< whether the format holds quadrilaterals, too
     bool one_stream = false;        ///< whether standard input and standard output can carry it
     bool internal_markers = false;  ///< whether `write` is given internal markers, too, because the format holds them
+    bool gauss_lobatto = false;     ///< whether `write_curved` takes nodes of this distribution
 };
 
 /// Returns the formats of this build. --format, the help text, the guide's table and the choice by extension follow it.

@@ -38,21 +38,29 @@ void write_mesh(const MeshView& mesh, const fs::path& file, const WriteOptions& 
     format.write(boundary_alone, file, options);
 }
 
-void require_curved_format(const fs::path& file, const WriteOptions& options) {
+void require_curved_format(const fs::path& file, const WriteOptions& options, unsigned order,
+                           NodeDistribution distribution) {
     const FormatRow& format = format_of(file, options);
     if (options.span > 0) throw UsageError("curved cells have no span: leave the order or the span out");
     if (options.wall_distance) throw UsageError("wall distances are those from straight walls: leave the order out");
-    if (format.write_curved != nullptr) return;
+    const bool is_lobatto = order > 2 && distribution == NodeDistribution::gauss_lobatto;
+    const auto holds = [&](const FormatRow& row) {
+        return row.write_curved != nullptr && (!is_lobatto || row.gauss_lobatto);
+    };
+    if (holds(format)) return;
     std::string names;
     for (const FormatRow& row : format_table())
-        if (row.write_curved != nullptr) names += (names.empty() ? "" : ", ") + std::string(row.name);
+        if (holds(row)) names += (names.empty() ? "" : ", ") + std::string(row.name);
+    if (format.write_curved == nullptr)
+        throw UsageError(
+            fmt::format("format '{}' holds straight cells: those with curved ones are {}", format.name, names));
     throw UsageError(
-        fmt::format("format '{}' holds straight cells: those with curved ones are {}", format.name, names));
+        fmt::format("format '{}' has evenly spaced nodes: those with Gauss and Lobatto's are {}", format.name, names));
 }
 
 void write_curved_mesh(const MeshView& mesh, const CurvedNodes& nodes, const fs::path& file,
                        const WriteOptions& options) {
-    require_curved_format(file, options);
+    require_curved_format(file, options, nodes.order, nodes.distribution);
     check_writable(file, options);
     format_of(file, options).write_curved(mesh, nodes, file, options);
 }

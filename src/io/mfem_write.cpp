@@ -2,8 +2,8 @@
 // grid function. Source: MFEM, "Mesh Formats"; mesh/mesh_readers.cpp, mesh/mesh.cpp (GetElementToEdgeTable) and
 // fem/fe_coll.cpp of MFEM 4.
 //
-// Cells and markers have numbers for names, which a comment tells. The nodes are those of "H1@U": Lagrange's
-// polynomials whose nodes are evenly spaced. Their places stand vertex by vertex, edge by edge and cell by cell. Edges
+// Cells and markers have numbers for names, which a comment tells. The nodes are those of "H1@U", Lagrange's polynomials
+// whose nodes are evenly spaced, or of "H1", whose nodes are those of NodeDistribution::gauss_lobatto. Their places stand vertex by vertex, edge by edge and cell by cell. Edges
 // are numbered as cells have them first, and the nodes of each go from its vertex of the lower number to the other one.
 // Those within cells go row by row.
 #include <fmt/format.h>
@@ -77,8 +77,8 @@ private:
             out_ << "2\n";
         else
             out_ << fmt::format(
-                "\nnodes\nFiniteElementSpace\nFiniteElementCollection: H1@U_2D_P{}\nVDim: 2\nOrdering: 1\n\n",
-                nodes_.order);
+                "\nnodes\nFiniteElementSpace\nFiniteElementCollection: H1{}_2D_P{}\nVDim: 2\nOrdering: 1\n\n",
+                nodes_.distribution == NodeDistribution::equidistant ? "@U" : "", nodes_.order);
         write_lines(out_, mesh_.points.size(), [&](LineText& line, std::size_t i) { line << mesh_.points[i]; });
         if (nodes_.order == 1) return;
         write_nodes_of_edges();

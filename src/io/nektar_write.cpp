@@ -2,8 +2,8 @@
 // of cells or edges. Source: Nektar++ user guide, "XML session file, Geometry"; Nektar++ 5, library/SpatialDomains,
 // MeshGraphIOXml.cpp, TriGeom.cpp and QuadGeom.cpp; NodalTriEvenlySpaced.cpp for the order of nodes.
 //
-// A curved cell has a curve of its own and one on each of its edges, both with evenly spaced nodes; others have none,
-// and solvers take them as straight. Nodes of a triangle stand as in CurvedNodes, those within it row by row; all nodes
+// A curved cell has a curve of its own and one on each of its edges, both with nodes of the mesh's distribution; others
+// have none, and solvers take them as straight. Nodes of a triangle stand as in CurvedNodes, those within it row by row; all nodes
 // of a quadrilateral stand row by row. Those of an edge go from its first vertex to the second one.
 #include <fmt/format.h>
 
@@ -18,6 +18,7 @@
 #include "io/curved_lists.hpp"
 #include "io/formats.hpp"
 #include "io/mesh_parts.hpp"
+#include "io/nektar_nodes.hpp"
 #include "io/text_output.hpp"
 #include "mesh/curved_nodes.hpp"
 
@@ -83,12 +84,12 @@ private:
         const std::vector<Point> places = nodes_of(cell);
         double largest = 0, off = 0;
         for (const Point p : places) largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
-        const std::span<const mesh::LatticePlace> lattice = mesh::lattice_of_cell(corners, nodes_.order);
+        const std::span<const mesh::NodePlace> on_cell =
+            mesh::places_of_nodes(corners, nodes_.order, nodes_.distribution);
         const Point a = places[1] - places[0], b = places[corners - 1] - places[0],
                     twist = corners == 4 ? places[2] - places[0] - a - b : Point{0, 0};
-        for (std::size_t i = corners; i < lattice.size(); ++i) {
-            const double s = static_cast<double>(lattice[i].i) / nodes_.order,
-                         t = static_cast<double>(lattice[i].j) / nodes_.order;
+        for (std::size_t i = corners; i < on_cell.size(); ++i) {
+            const auto [s, t] = on_cell[i];
             off = std::max(off, length(places[i] - places[0] - s * a - t * b - (s * t) * twist));
         }
         return off > rounding * largest;
@@ -146,7 +147,7 @@ private:
                 const std::size_t cell = cells_.cell_of(edge), corners = cells_.corners(cell),
                                   k = edge - cells_.first(cell);
                 const std::vector<Point> places = nodes_of(cell);
-                begin_curve(line, {"E", "EDGEID"}, i, curved[i], p + 1, "PolyEvenlySpaced");
+                begin_curve(line, {"E", "EDGEID"}, i, curved[i], p + 1, type_of_nodes(4));
                 put_point(line, places[k]);
                 for (std::size_t node = 0; node + 1 < p; ++node) put_point(line, places[corners + k * (p - 1) + node]);
                 put_point(line, places[(k + 1) % corners]);
@@ -157,14 +158,21 @@ private:
             out_, bent_cells_.size(),
             [&](LineText& line, std::size_t i) {
                 const std::size_t cell = bent_cells_[i], corners = cells_.corners(cell);
-                const std::vector<Point> places = nodes_of(cell);
-                begin_curve(line, {"F", "FACEID"}, curved.size() + i, cell, places.size(),
-                            corners == 3 ? "NodalTriEvenlySpaced" : "PolyEvenlySpaced");
+                std::vector<Point> places = nodes_of(cell);
+                begin_curve(line, {"F", "FACEID"}, curved.size() + i, cell, places.size(), type_of_nodes(corners));
+                if (corners == 3 && p == 4 && nodes_.distribution == NodeDistribution::gauss_lobatto)
+                    move_to_nektar_places(places, place_in_nodal_tri_elec);
                 for (const std::size_t node : orders[corners - 3]) put_point(line, places[node]);
                 line << "</F>";
             },
             room);
         out_ << "</CURVED>\n";
+    }
+    /// Returns what Nektar++ calls the nodes of triangles, or of squares and edges.
+    std::string_view type_of_nodes(std::size_t corners) const {
+        const bool is_even = nodes_.distribution == NodeDistribution::equidistant;
+        if (corners == 3) return is_even ? "NodalTriEvenlySpaced" : "NodalTriElec";
+        return is_even ? "PolyEvenlySpaced" : "GaussLobattoLegendre";
     }
     /// The name of a curve's tag, and of the attribute that says what is curved.
     struct CurveNames {

@@ -218,10 +218,12 @@ void list_nodes(const NodeNumbers& numbers, std::size_t cell, unsigned order, Ve
 }
 
 /// Returns the lists of nodes of all cells and markers, without places. `edges` are those of all markers in a row.
-CurvedNodes number_nodes(const MeshView& mesh, const NodeNumbers& numbers, unsigned order,
+CurvedNodes number_nodes(const MeshView& mesh, const NodeNumbers& numbers, const CellOrder& of_cells,
                          std::span<const std::uint32_t> edges) {
+    const unsigned order = of_cells.order;
     CurvedNodes nodes;
     nodes.order = order;
+    nodes.distribution = of_cells.distribution;
     const CellEdges& cells = numbers.cells();
     nodes.points.resize(numbers.count());
     const std::size_t triangles = mesh.triangles.size(), of_triangle = nodes_of_cell(3, order) - 3,
@@ -249,14 +251,21 @@ CurvedNodes number_nodes(const MeshView& mesh, const NodeNumbers& numbers, unsig
 class NodePlacer {
 public:
     NodePlacer(const MeshView& mesh, const NodeNumbers& numbers, const Adjacency& adjacency,
-               std::span<const BentColumn> columns, unsigned order)
-        : mesh_(mesh), numbers_(numbers), cells_(mesh), columns_(columns), order_(order) {
+               std::span<const BentColumn> columns, const CellOrder& order)
+        : mesh_(mesh),
+          numbers_(numbers),
+          cells_(mesh),
+          columns_(columns),
+          order_(order.order),
+          distribution_(order.distribution) {
         bend_of_edge_.resize(cells_.size(), {no_bend, 0});
         column_of_cell_.resize(cells_.cells(), {no_bend, 0});
         has_bent_edge_.resize(cells_.cells());
         for (const unsigned corners : {3u, 4u})
-            for (const LatticePlace& place : lattice_of_cell(corners, order))
-                weights_[corners - 3].push_back(corner_weights(corners, place));
+            for (std::size_t i = 0; i < lattice_of_cell(corners, order_).size(); ++i)
+                weights_[corners - 3].push_back(corner_weights(corners, i));
+        for (std::size_t i = 0; i < lattice_of_cell(3, order_).size(); ++i)
+            across_triangle_.push_back(lines_across_triangle(i));
         for (std::uint32_t c = 0; c < columns.size(); ++c) {
             for (std::uint32_t f = 0; f < columns[c].fronts.size(); ++f) {
                 const std::uint32_t edge = columns[c].fronts[f].edge, twin = adjacency.twin[edge];
@@ -305,7 +314,7 @@ private:
         const bool is_reversed = bend_of_edge_[edge].column == no_bend && twin != no_edge;
         const InColumn bent = bend_of_edge_[is_reversed ? twin : edge];
         for (unsigned k = 1; k < order_; ++k) {
-            Point node = a + (static_cast<double>(k) / order_) * (b - a);
+            Point node = a + place_on_edge(order_, k, distribution_) * (b - a);
             if (bent.column != no_bend) node = node + bend_of_front(bent, is_reversed ? order_ - k : k);
             places[first + k - 1] = node;
         }
@@ -313,7 +322,7 @@ private:
     Point bend_of_front(const InColumn& bent, unsigned k) const {
         const BentColumn& column = columns_[bent.column];
         const Front& front = column.fronts[bent.index];
-        const double u = static_cast<double>(k) / order_;
+        const double u = place_on_edge(order_, k, distribution_);
         return share_at(column, (1 - u) * front.begin_height + u * front.end_height) * column.bend[k];
     }
 
@@ -332,17 +341,22 @@ private:
             if (in.column != no_bend)
                 node = node + bend_in_column(in, corners, weights);
             else if (has_bent_edge_[cell])
-                node = node + bend_between_edges(cell, corners, lattice[i], places);
+                node = node + bend_between_edges(cell, corners, i, places);
             places[first + i - border] = node;
         }
     }
     /// Returns how much of each corner a node of the straight cell is.
-    std::array<double, 4> corner_weights(unsigned corners, const LatticePlace& place) const {
-        const double s = static_cast<double>(place.i) / order_, t = static_cast<double>(place.j) / order_;
-        if (corners == 3) return {static_cast<double>(order_ - place.i - place.j) / order_, s, t, 0};
+    std::array<double, 4> corner_weights(unsigned corners, std::size_t node) const {
+        const auto [s, t] = places_of_nodes(corners, order_, distribution_)[node];
+        if (corners == 3 && distribution_ == NodeDistribution::equidistant) {
+            const LatticePlace& place = lattice_of_cell(3, order_)[node];
+            return {static_cast<double>(order_ - place.i - place.j) / order_, s, t, 0};
+        }
+        if (corners == 3) return {1 - s - t, s, t, 0};
         return {(1 - s) * (1 - t), s * (1 - t), s * t, (1 - s) * t};
     }
-    /// Returns the bend of a node within a cell of a column, where u is a multiple of 1 / p: its corners have 0 and 1.
+    /// Returns the bend of a node within a cell of a column, where u is that of a node of the wall: its corners have 0
+    /// and 1. But for triangles whose nodes are not evenly spaced.
     Point bend_in_column(const InColumn& in, unsigned corners, const std::array<double, 4>& weights) const {
         const BentColumn& column = columns_[in.column];
         double u = 0, height = 0;
@@ -351,31 +365,63 @@ private:
             u += place.at_end ? weights[c] : 0;
             height += weights[c] * place.height;
         }
-        return share_at(column, height) * column.bend[static_cast<std::size_t>(std::lround(u * order_))];
+        if (corners == 3 && distribution_ != NodeDistribution::equidistant)
+            return share_at(column, height) * point_of_edge(std::span(column.bend).first(order_ + 1), u, distribution_);
+        unsigned k = 0;
+        while (u > half_step_on_edge(order_, 2 * k + 1, distribution_)) ++k;
+        return share_at(column, height) * column.bend[k];
+    }
+    using EdgeWeights = std::array<double, max_cell_order + 1>;
+
+    /// The six points where the lines through a node, each parallel to an edge of its triangle, meet the other edges,
+    /// and the share of the second one in a node on their line.
+    struct LinesAcross {
+        struct Line {
+            std::size_t from, to;  ///< edges
+            EdgeWeights at_from, at_to;
+            double share;
+        };
+        std::array<Line, 3> lines;
+    };
+    LinesAcross lines_across_triangle(std::size_t node) const {
+        // Whole numbers in place of i / p, where they may be: they do not round.
+        const bool is_even = distribution_ == NodeDistribution::equidistant;
+        const LatticePlace& of_lattice = lattice_of_cell(3, order_)[node];
+        const NodePlace& place = places_of_nodes(3, order_, distribution_)[node];
+        const double whole = is_even ? order_ : 1, s = is_even ? of_lattice.i : place.s,
+                     t = is_even ? of_lattice.j : place.t, r = whole - s - t;
+        const auto line = [&](std::size_t from, double at_from, std::size_t to, double at_to, double share) {
+            return LinesAcross::Line{from, to, weights_on_edge(order_, at_from / whole, distribution_),
+                                     weights_on_edge(order_, at_to / whole, distribution_), share};
+        };
+        return {{line(2, whole - t, 1, t, s / (r + s)), line(0, s + t, 2, r, t / (s + t)),
+                 line(1, whole - s, 0, s, r / (t + r))}};
     }
     /// Returns the bend of a node within a cell by transfinite interpolation of those of its edges.
-    Point bend_between_edges(std::size_t cell, unsigned corners, const LatticePlace& place,
+    Point bend_between_edges(std::size_t cell, unsigned corners, std::size_t node,
                              const std::vector<Point>& places) const {
-        const unsigned p = order_, i = place.i, j = place.j;
+        const unsigned p = order_;
         const auto bend = [&](std::size_t edge, unsigned k) {
             const auto e = static_cast<std::uint32_t>(cells_.first(cell) + edge);
             const Point a = at(cells_.origin(e)), b = at(cells_.target(e));
-            return places[numbers_.of_edge(e, k - 1)] - (a + (static_cast<double>(k) / p) * (b - a));
+            return places[numbers_.of_edge(e, k - 1)] - (a + place_on_edge(p, k, distribution_) * (b - a));
         };
         if (corners == 4) {
-            const double s = static_cast<double>(i) / p, t = static_cast<double>(j) / p;
+            const auto [i, j] = lattice_of_cell(4, p)[node];
+            const auto [s, t] = places_of_nodes(4, p, distribution_)[node];
             return (1 - t) * bend(0, i) + s * bend(1, j) + t * bend(2, p - i) + (1 - s) * bend(3, p - j);
         }
         // Half the sum of the interpolations along the lines parallel to each edge; bends vanish at corners.
-        const unsigned k = p - i - j;
-        const auto along = [](unsigned from, unsigned to, Point a, Point b) {
-            const double share = static_cast<double>(to) / (from + to);
-            return (1 - share) * a + share * b;
+        Point sum{0, 0};
+        const auto bend_at = [&](std::size_t edge, const EdgeWeights& weights) {
+            Point at_edge{0, 0};
+            for (unsigned k = 1; k < p; ++k) at_edge = at_edge + weights[k] * bend(edge, k);
+            return at_edge;
         };
-        const Point parallel_to_first = along(k, i, bend(2, p - j), bend(1, j));  // k + i is constant along it
-        const Point parallel_to_second = along(i, j, bend(0, i + j), bend(2, k));
-        const Point parallel_to_third = along(j, k, bend(1, p - i), bend(0, i));
-        return 0.5 * (parallel_to_first + parallel_to_second + parallel_to_third);
+        for (const LinesAcross::Line& line : across_triangle_[node].lines)
+            sum =
+                sum + ((1 - line.share) * bend_at(line.from, line.at_from) + line.share * bend_at(line.to, line.at_to));
+        return 0.5 * sum;
     }
 
     MeshView mesh_;
@@ -383,30 +429,42 @@ private:
     CellEdges cells_;
     std::span<const BentColumn> columns_;
     unsigned order_;
+    NodeDistribution distribution_;
     std::vector<InColumn> bend_of_edge_, column_of_cell_;
     std::array<std::vector<std::array<double, 4>>, 2> weights_;  ///< corner_weights() in triangles and quadrilaterals
+    std::vector<LinesAcross> across_triangle_;                   ///< per node of a triangle
     std::vector<char> has_bent_edge_;                            ///< per cell: whether columns bend an edge of it
 };
 
 // ---- walls -----------------------------------------------------------------------------------------------------------
 
-/// Sets the bend of a column to a share of that of the wall's curve.
-void set_bend(BentColumn& column, const MeshView& mesh, const WallCurve& wall, unsigned order, double share) {
+/// Returns the nodes of the straight edge of a wall.
+std::array<Point, max_cell_order + 1> nodes_of_chord(const MeshView& mesh, const WallCurve& wall,
+                                                     const CellOrder& order) {
     const Point a = mesh.points[wall.edge.a.index()], b = mesh.points[wall.edge.b.index()];
-    for (unsigned k = 1; k < order; ++k)
-        column.bend[k] = share * (wall.between[2 * k - 1] - (a + (static_cast<double>(k) / order) * (b - a)));
+    std::array<Point, max_cell_order + 1> nodes{};
+    for (unsigned k = 0; k <= order.order; ++k)
+        nodes[k] = a + place_on_edge(order.order, k, order.distribution) * (b - a);
+    return nodes;
+}
+
+/// Sets the bend of a column to a share of that of the wall's curve.
+void set_bend(BentColumn& column, const MeshView& mesh, const WallCurve& wall, const CellOrder& order, double share) {
+    const auto straight = nodes_of_chord(mesh, wall, order);
+    for (unsigned k = 1; k < order.order; ++k) column.bend[k] = share * (wall.between[2 * k - 1] - straight[k]);
 }
 
 /// Returns how far an edge of a wall is off the curve, at the nodes and halfway between them.
-double distance_from_curve(const MeshView& mesh, const WallCurve& wall, const BentColumn& column, unsigned order) {
-    const Point a = mesh.points[wall.edge.a.index()], b = mesh.points[wall.edge.b.index()];
-    std::array<Point, max_cell_order + 1> nodes{};
-    for (unsigned k = 0; k <= order; ++k) nodes[k] = a + (static_cast<double>(k) / order) * (b - a) + column.bend[k];
+double distance_from_curve(const MeshView& mesh, const WallCurve& wall, const BentColumn& column,
+                           const CellOrder& order) {
+    auto nodes = nodes_of_chord(mesh, wall, order);
+    for (unsigned k = 0; k <= order.order; ++k) nodes[k] = nodes[k] + column.bend[k];
     double largest = 0;
-    for (std::size_t i = 0; i < wall.between.size(); ++i)
-        largest =
-            std::max(largest, distance(wall.between[i], point_of_edge(std::span(nodes).first(order + 1),
-                                                                      static_cast<double>(i + 1) / (2.0 * order))));
+    for (unsigned i = 0; i < wall.between.size(); ++i)
+        largest = std::max(
+            largest, distance(wall.between[i], point_of_edge(std::span(nodes).first(order.order + 1),
+                                                             half_step_on_edge(order.order, i + 1, order.distribution),
+                                                             order.distribution)));
     return largest;
 }
 
@@ -419,7 +477,7 @@ std::vector<std::uint32_t> edges_of_boundary(const MeshView& mesh, std::span<con
 }
 
 /// Follows the column over each wall, whose directed edge is known, and bends it by the wall's curve.
-std::vector<BentColumn> bent_columns(const MeshView& mesh, const ColumnSearch& search, unsigned order,
+std::vector<BentColumn> bent_columns(const MeshView& mesh, const ColumnSearch& search, const CellOrder& order,
                                      std::span<const WallCurve> walls, std::span<const std::uint32_t> edges) {
     std::vector<BentColumn> columns(walls.size());
     core::parallel_for(walls.size(), 64, [&](std::size_t begin, std::size_t end) {
@@ -454,7 +512,7 @@ std::vector<std::uint32_t> columns_at_fault(const MeshView& mesh, const CellProo
 
 /// Returns how well walls are followed, whose bends were halved so many times.
 CurvingSummary summary_of(const MeshView& mesh, std::span<const WallCurve> walls, std::span<const BentColumn> columns,
-                          std::span<const int> halvings, unsigned order) {
+                          std::span<const int> halvings, const CellOrder& order) {
     CurvingSummary summary;
     for (std::size_t w = 0; w < walls.size(); ++w) {
         const double off = distance_from_curve(mesh, walls[w], columns[w], order);
@@ -475,14 +533,15 @@ std::uint32_t CellColumnNumbers::of(const MeshView& mesh, std::size_t cell) cons
     return cell < in_triangles ? columns[cell] : none;
 }
 
-CurvedCells curve_cells(const MeshView& mesh, unsigned order, std::span<const WallCurve> walls,
+CurvedCells curve_cells(const MeshView& mesh, CellOrder order, std::span<const WallCurve> walls,
                         const CellColumnNumbers& numbers_of_columns) {
-    constexpr int max_halvings_of_bend = 6;  // docs/decisions/0012
+    constexpr int max_halvings_of_bend = 6;                                    // docs/decisions/0012
+    if (order.order <= 2) order.distribution = NodeDistribution::equidistant;  // both are the same
     const Adjacency adjacency = find_adjacency(mesh);
     const std::vector<std::uint32_t> edges = edges_of_boundary(mesh, walls);
     const ColumnSearch search(mesh, adjacency, numbers_of_columns);
     std::vector<BentColumn> columns = bent_columns(mesh, search, order, walls, std::span(edges).first(walls.size()));
-    const NodeNumbers numbers(mesh, adjacency, order);
+    const NodeNumbers numbers(mesh, adjacency, order.order);
     CurvedCells curved{number_nodes(mesh, numbers, order, std::span(edges).subspan(walls.size())), {}, {}};
     const NodePlacer placer(mesh, numbers, adjacency, columns, order);
     std::vector<int> halvings(walls.size());
@@ -503,7 +562,7 @@ CurvedCells curve_cells(const MeshView& mesh, unsigned order, std::span<const Wa
     }
     if (!curved.check.valid())
         throw MeshError(
-            fmt::format("the cells of order {} are not valid: {}", order, curved.check.defects[0].description),
+            fmt::format("the cells of order {} are not valid: {}", order.order, curved.check.defects[0].description),
             curved.check.defects[0].at);
     curved.summary = summary_of(mesh, walls, columns, halvings, order);
     return curved;

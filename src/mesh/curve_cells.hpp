@@ -11,8 +11,9 @@ namespace lamina::mesh {
 
 /// The curve that an edge of a wall stands for.
 struct WallCurve {
-    Segment edge;                ///< directed with the mesh on its left
-    std::vector<Point> between;  ///< 2 p - 1 points of the curve from edge.a to edge.b: each second one becomes a node
+    Segment edge;  ///< directed with the mesh on its left
+    /// 2 p - 1 points of the curve from edge.a to edge.b, in half_step_on_edge(): each second one becomes a node.
+    std::vector<Point> between;
 };
 
 /// The columns of cells over walls.
@@ -31,6 +32,12 @@ struct CurvedCells {
     CurvedCheck check;  ///< without defects
 };
 
+/// The order of cells, and where their nodes are.
+struct CellOrder {
+    unsigned order = 1;
+    NodeDistribution distribution = NodeDistribution::equidistant;
+};
+
 /// Makes the cells of a mesh curved cells of order p that follow the walls, and proves all of them valid. Parallel; the
 /// result does not depend on the number of threads.
 ///
@@ -45,7 +52,7 @@ struct CurvedCells {
 /// smallest one over the largest, cannot be proved to be 0.02 and is less than half of what it is when the cell is
 /// straight. Cells that are not valid have 0. Throws MeshError where a cell is not valid even so. Precondition:
 /// check_mesh() finds no defect; the edges are on the boundary, each given once; quadrilaterals at them are in columns.
-LAMINA_EXPORT CurvedCells curve_cells(const MeshView& mesh, unsigned order, std::span<const WallCurve> walls,
+LAMINA_EXPORT CurvedCells curve_cells(const MeshView& mesh, CellOrder order, std::span<const WallCurve> walls,
                                       const CellColumnNumbers& columns);
 
 }  // namespace lamina::mesh

@@ -1,6 +1,7 @@
 // The nodes of one curved cell.
 #pragma once
 
+#include <array>
 #include <span>
 
 #include <lamina/curved_mesh.hpp>
@@ -27,17 +28,27 @@ void for_each_node(const MeshView& mesh, const CurvedNodes& nodes, std::size_t c
     for (const VertexId v : inner_nodes(mesh, nodes, cell)) f(n++, nodes.points[v.index() - mesh.points.size()]);
 }
 
-/// Returns the point of an edge of order p at the parameter t, by Lagrange's polynomials of its p + 1 evenly spaced
-/// nodes.
-inline Point point_of_edge(std::span<const Point> nodes, double t) {
-    const auto p = static_cast<double>(nodes.size() - 1);
-    Point sum{0, 0};
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-        double factor = 1;
-        for (std::size_t k = 0; k < nodes.size(); ++k)
-            if (k != i) factor *= (p * t - static_cast<double>(k)) / (static_cast<double>(i) - static_cast<double>(k));
-        sum = sum + factor * nodes[i];
+/// Returns Lagrange's polynomials of the nodes of an edge of order p at the parameter t, which weigh its p + 1 nodes
+/// there.
+inline std::array<double, max_cell_order + 1> weights_on_edge(unsigned p, double t, NodeDistribution distribution) {
+    std::array<double, max_cell_order + 1> x{}, weights{};
+    // Whole numbers in place of i / p, where they may be: they do not round.
+    const bool is_even = distribution == NodeDistribution::equidistant;
+    for (unsigned i = 0; i <= p; ++i) x[i] = is_even ? i : place_on_edge(p, i, distribution);
+    const double at = is_even ? p * t : t;
+    for (unsigned i = 0; i <= p; ++i) {
+        weights[i] = 1;
+        for (unsigned k = 0; k <= p; ++k)
+            if (k != i) weights[i] *= (at - x[k]) / (x[i] - x[k]);
     }
+    return weights;
+}
+
+/// Returns the point of an edge at the parameter t, by Lagrange's polynomials of its nodes.
+inline Point point_of_edge(std::span<const Point> nodes, double t, NodeDistribution distribution) {
+    const auto weights = weights_on_edge(static_cast<unsigned>(nodes.size() - 1), t, distribution);
+    Point sum{0, 0};
+    for (std::size_t i = 0; i < nodes.size(); ++i) sum = sum + weights[i] * nodes[i];
     return sum;
 }
 

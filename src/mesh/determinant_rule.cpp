@@ -1,8 +1,11 @@
 #include "mesh/determinant_rule.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <span>
+#include <vector>
 
 #include "mesh/cell_lattice.hpp"
 
@@ -54,13 +57,102 @@ void for_each_triangle_factor(unsigned p, const LatticePlace& node, F&& f) {
             f(a, b, polynomial[a][b] * factorial(a) * factorial(b) * factorial(p - a - b) * of_node);
 }
 
+/// Numbers with at least 11 more bits than double has, where the machine has them.
+using Precise = long double;
+using PreciseRows = std::vector<std::vector<Precise>>;  ///< [coefficient][node]
+
+/// What is off in the factors below once they are rounded, all of one coefficient together, over their sum. They come
+/// of some 50 operations on numbers that are not small.
+constexpr double error_of_rounded_factors = std::numeric_limits<Precise>::digits >= 64 ? 0x1p-49 : 0x1p-45;
+
+/// Returns x_i of Gauss and Lobatto's nodes, as place_on_edge() does.
+Precise precise_place(unsigned p, unsigned i) {
+    if (i == 0 || i == p || 2 * i == p) return static_cast<Precise>(i) / p;
+    const Precise first = 0.5L * (1 - std::sqrt(p == 3 ? 0.2L : 3.0L / 7));
+    return i == 1 ? first : 1 - first;
+}
+
+/// Returns the Bernstein coefficients of Lagrange's polynomials of Gauss and Lobatto's nodes on a segment: products of
+/// linear factors (x - x_k) / (x_n - x_k), each of which raises the degree.
+PreciseRows lobatto_rows_of_curve(unsigned p) {
+    PreciseRows rows(p + 1, std::vector<Precise>(p + 1));
+    for (unsigned node = 0; node <= p; ++node) {
+        std::vector<Precise> f{1};
+        for (unsigned k = 0; k <= p; ++k) {
+            if (k == node) continue;
+            const auto degree = static_cast<unsigned>(f.size());
+            const Precise x = precise_place(p, k), width = precise_place(p, node) - x;
+            std::vector<Precise> product(degree + 1);
+            for (unsigned a = 0; a <= degree; ++a) {
+                if (a < degree) product[a] += static_cast<Precise>(degree - a) / degree * f[a] * (-x / width);
+                if (a > 0) product[a] += static_cast<Precise>(a) / degree * f[a - 1] * ((1 - x) / width);
+            }
+            f = product;
+        }
+        for (unsigned a = 0; a <= p; ++a) rows[a][node] = f[a];
+    }
+    return rows;
+}
+
+/// Returns the Bernstein coefficients, in the order of a grid, of Lagrange's polynomials of Gauss and Lobatto's nodes on
+/// a triangle. Those on its border are those of its edges. Within it are as many coefficients as nodes, one or three,
+/// of which each belongs to the node of the same exponents: with a for the smaller barycentric coordinates of a node of
+/// order 4 and b = 1 - 2 a for the largest one, their values at the nodes are 12 a^2 b (a J + (b - a) I), where all of
+/// J is 1, and the inverse of that is (I - a J) / (12 a^2 b (b - a)).
+PreciseRows lobatto_rows_of_triangle(unsigned p, const CoefficientGrid& map) {
+    const PreciseRows of_curve = lobatto_rows_of_curve(p);
+    const std::span<const LatticePlace> lattice = lattice_of_cell(3, p);
+    PreciseRows rows(map.size(), std::vector<Precise>(lattice.size()));
+    const auto exponent = [&](const LatticePlace& node, unsigned corner) {
+        return corner == 0 ? p - node.i - node.j : corner == 1 ? node.i : node.j;
+    };
+    for (const LatticePlace& coefficient : lattice)
+        for (unsigned corner = 0; corner < 3; ++corner)
+            if (exponent(coefficient, corner) == 0)
+                for (std::size_t n = 0; n < lattice.size(); ++n)
+                    if (exponent(lattice[n], corner) == 0)
+                        rows[map.at(coefficient.i, coefficient.j)][n] =
+                            of_curve[exponent(coefficient, (corner + 1) % 3)][exponent(lattice[n], (corner + 1) % 3)];
+    const std::span<const LatticePlace> within = lattice.subspan(std::size_t{3} * p);
+    const Precise x1 = precise_place(p, 1), a = p == 3 ? Precise{1} / 3 : x1 / (2 * x1 + precise_place(p, 2)),
+                  b = 1 - 2 * a, size = p == 3 ? 2.0L / 9 : 12 * a * a * b * (b - a);
+    // What is left of each polynomial at the nodes within once the border's part is taken off.
+    PreciseRows rest(within.size(), std::vector<Precise>(lattice.size()));
+    for (std::size_t m = 0; m < within.size(); ++m) {
+        rest[m][std::size_t{3} * p + m] = 1;
+        std::array<Precise, 3> place{};
+        for (unsigned corner = 0; corner < 3; ++corner) place[corner] = exponent(within[m], corner) == 1 ? a : b;
+        for (const LatticePlace& coefficient : lattice.first(std::size_t{3} * p)) {
+            Precise value = factorial(p);
+            for (unsigned corner = 0; corner < 3; ++corner)
+                for (unsigned k = 1; k <= exponent(coefficient, corner); ++k) value *= place[corner] / k;
+            for (std::size_t n = 0; n < lattice.size(); ++n)
+                rest[m][n] -= value * rows[map.at(coefficient.i, coefficient.j)][n];
+        }
+    }
+    for (std::size_t c = 0; c < within.size(); ++c)
+        for (std::size_t m = 0; m < within.size(); ++m) {
+            const Precise factor = p == 3 ? 1 / size : ((c == m ? 1 : 0) - a) / size;
+            for (std::size_t n = 0; n < lattice.size(); ++n)
+                rows[map.at(within[c].i, within[c].j)][n] += factor * rest[m][n];
+        }
+    return rows;
+}
+
 /// On an edge of the triangle its polynomials are those of a segment.
-CurveRule make_curve_rule(unsigned p) {
+CurveRule make_curve_rule(unsigned p, NodeDistribution distribution) {
     CurveRule rule;
-    for (unsigned node = 0; node <= p; ++node)
-        for_each_triangle_factor(p, {node, p - node}, [&](unsigned a, unsigned b, double factor) {
-            if (a + b == p) rule.to_bernstein[a][node] = factor;
-        });
+    if (distribution == NodeDistribution::gauss_lobatto) {
+        const PreciseRows rows = lobatto_rows_of_curve(p);
+        for (unsigned a = 0; a <= p; ++a)
+            for (unsigned node = 0; node <= p; ++node) rule.to_bernstein[a][node] = static_cast<double>(rows[a][node]);
+    } else {
+        rule.factor = std::pow(factorial(p), 2);
+        for (unsigned node = 0; node <= p; ++node)
+            for_each_triangle_factor(p, {node, p - node}, [&](unsigned a, unsigned b, double factor) {
+                if (a + b == p) rule.to_bernstein[a][node] = factor;
+            });
+    }
     for (unsigned a = 0; a <= p; ++a) {
         double sum = 0;
         for (unsigned node = 0; node <= p; ++node) sum += std::abs(rule.to_bernstein[a][node]);
@@ -69,7 +161,6 @@ CurveRule make_curve_rule(unsigned p) {
         if (a < p) rule.weights_of_derivative[a] = binomial(p - 1, a);
     }
     for (unsigned k = 0; k < 2 * p; ++k) rule.weights_of_product[k] = binomial(2 * p - 1, k);
-    rule.factor = std::pow(factorial(p), 2);
     return rule;
 }
 
@@ -83,11 +174,13 @@ void join_lists(const std::vector<std::vector<T>>& lists, std::vector<T>& joined
     }
 }
 
-/// Adds how nodes become the coefficients of the map, those of a square times (p!)^4.
+/// Adds how nodes become the coefficients of the map, those of evenly spaced ones on a square times (p!)^4.
 void add_conversion(unsigned corners, unsigned p, const CoefficientGrid& map, DeterminantRule& rule) {
     const std::span<const LatticePlace> lattice = lattice_of_cell(corners, p);
     rule.nodes = lattice.size();
-    rule.curve = make_curve_rule(p);
+    rule.curve = make_curve_rule(p, rule.distribution);
+    const bool is_lobatto = rule.distribution == NodeDistribution::gauss_lobatto;
+    const PreciseRows lobatto = is_lobatto && corners == 3 ? lobatto_rows_of_triangle(p, map) : PreciseRows{};
     std::vector<std::vector<NodeFactor>> of_coefficients(map.size());
     std::vector<double> sums(map.size());
     for (std::size_t node = 0; node < rule.nodes; ++node) {
@@ -96,7 +189,9 @@ void add_conversion(unsigned corners, unsigned p, const CoefficientGrid& map, De
             if (factor != 0) of_coefficients[map.at(a, b)].push_back({node, factor});
             sums[map.at(a, b)] += std::abs(factor);
         };
-        if (corners == 3)
+        if (corners == 3 && is_lobatto)
+            map.for_each([&](unsigned a, unsigned b) { add(a, b, static_cast<double>(lobatto[map.at(a, b)][node])); });
+        else if (corners == 3)
             for_each_triangle_factor(p, place, add);
         else
             map.for_each([&](unsigned a, unsigned b) {
@@ -132,16 +227,19 @@ void add_products(const CoefficientGrid& map, const CoefficientGrid& along, cons
     rule.grid.for_each([&](unsigned i, unsigned j) { rule.weights[rule.grid.at(i, j)] = rule.grid.weight(i, j); });
 }
 
-DeterminantRule make_rule(unsigned corners, unsigned p) {
+DeterminantRule make_rule(unsigned corners, unsigned p, NodeDistribution distribution) {
     const CoefficientGrid map{corners, p, p};
     const bool is_triangle = corners == 3;
     const unsigned degree = is_triangle ? 2 * (p - 1) : 2 * p - 1;
     DeterminantRule rule;
     rule.grid = {corners, degree, degree};
     rule.order = p;
+    // Up to order 2 all nodes are evenly spaced.
+    if (p > 2) rule.distribution = distribution;
+    if (rule.distribution == NodeDistribution::gauss_lobatto) rule.error_of_factors = error_of_rounded_factors;
     add_conversion(corners, p, map, rule);
     add_products(map, {corners, p - 1, p}, {corners, is_triangle ? p - 1 : p, p - 1}, rule);
-    const double factor = std::pow(factorial(p), is_triangle ? 2 : 4);
+    const double factor = is_triangle ? rule.curve.factor : std::pow(rule.curve.factor, 2);
     rule.scale = (p / factor) * (p / factor);
     rule.slope_of_bend = 2 * p * rule.largest_row / factor;
     rule.corners = {rule.grid.at(0, 0), rule.grid.at(degree, 0), rule.grid.at(0, degree)};
@@ -151,9 +249,9 @@ DeterminantRule make_rule(unsigned corners, unsigned p) {
 
 using RulesByOrder = std::array<DeterminantRule, max_cell_order + 1>;
 
-RulesByOrder make_rules(unsigned corners) {
+RulesByOrder make_rules(unsigned corners, NodeDistribution distribution) {
     RulesByOrder rules;
-    for (unsigned p = 1; p <= max_cell_order; ++p) rules[p] = make_rule(corners, p);
+    for (unsigned p = 1; p <= max_cell_order; ++p) rules[p] = make_rule(corners, p, distribution);
     return rules;
 }
 
@@ -164,9 +262,25 @@ double CoefficientGrid::weight(unsigned i, unsigned j) const {
     return factorial(n) / (factorial(i) * factorial(j) * factorial(n - i - j));
 }
 
-const DeterminantRule& determinant_rule(unsigned corners, unsigned order) {
-    static const RulesByOrder triangles = make_rules(3), squares = make_rules(4);
-    return (corners == 3 ? triangles : squares)[order];
+const DeterminantRule& determinant_rule(unsigned corners, unsigned order, NodeDistribution distribution) {
+    static const std::array<std::array<RulesByOrder, 2>, 2> rules{
+        {{make_rules(3, NodeDistribution::equidistant), make_rules(4, NodeDistribution::equidistant)},
+         {make_rules(3, NodeDistribution::gauss_lobatto), make_rules(4, NodeDistribution::gauss_lobatto)}}};
+    return rules[static_cast<std::size_t>(distribution)][corners - 3][order];
+}
+
+std::vector<double> lagrange_in_triangle(unsigned order, NodeDistribution distribution, double s, double t) {
+    const DeterminantRule& rule = determinant_rule(3, order, distribution);
+    const CoefficientGrid map{3, order, order};
+    std::vector<double> values(rule.nodes);
+    map.for_each([&](unsigned i, unsigned j) {
+        const double bernstein =
+            map.weight(i, j) * std::pow(s, i) * std::pow(t, j) * std::pow(1 - s - t, order - i - j) / rule.curve.factor;
+        const std::size_t c = map.at(i, j);
+        for (std::size_t k = rule.first_factor[c]; k < rule.first_factor[c + 1]; ++k)
+            values[rule.to_bernstein[k].node] += bernstein * rule.to_bernstein[k].value;
+    });
+    return values;
 }
 
 }  // namespace lamina::mesh

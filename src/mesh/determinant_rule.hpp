@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <lamina/curved_mesh.hpp>
+#include <lamina/export.hpp>
 
 namespace lamina::mesh {
 
@@ -41,7 +42,7 @@ struct Difference {
 /// The part of a coefficient of the map that a node has.
 struct NodeFactor {
     std::size_t node;
-    double value;  ///< a whole number, not 0
+    double value;  ///< a whole number for nodes that are evenly spaced; not 0
 };
 
 /// The part of a coefficient of the determinant that two derivatives have.
@@ -49,10 +50,11 @@ struct ProductTerm {
     std::uint32_t along, across;  ///< places in the lists of derivatives
 };
 
-/// How the nodes of a curve of order p become (p!)^2 times its Bernstein coefficients, and what weighs coefficients.
+/// How the nodes of a curve of order p become a factor times its Bernstein coefficients, and what weighs coefficients.
 struct CurveRule {
-    double largest_row = 0;                                                                 ///< of the factors below
-    double factor = 1;                                                                      ///< (p!)^2
+    double largest_row = 0;  ///< of the factors below
+    double factor = 1;       ///< (p!)^2, which makes them
+                             ///< whole, or 1
     std::array<std::array<double, max_cell_order + 1>, max_cell_order + 1> to_bernstein{};  ///< [coefficient][node]
     std::array<double, max_cell_order + 1> weights{};                                       ///< of degree p
     std::array<double, max_cell_order> weights_of_derivative{};                             ///< of degree p - 1
@@ -67,6 +69,9 @@ struct DeterminantRule {
     std::vector<NodeFactor> to_bernstein;   ///< coefficient by coefficient of the map
     std::vector<std::size_t> first_factor;  ///< of each coefficient of the map, then the end
     double largest_row = 0;                 ///< largest sum of the sizes of the factors of a coefficient
+    /// What the errors of the factors of a coefficient amount to at most, over largest_row: 0 for whole numbers.
+    double error_of_factors = 0;
+    NodeDistribution distribution = NodeDistribution::equidistant;
     std::vector<Difference> along, across;
     std::vector<ProductTerm> terms;       ///< coefficient by coefficient
     std::vector<std::size_t> first_term;  ///< of each coefficient of the determinant, then the end
@@ -79,6 +84,10 @@ struct DeterminantRule {
 };
 
 /// Returns the rule of cells with 3 or 4 corners. Precondition: 1 <= order <= max_cell_order.
-const DeterminantRule& determinant_rule(unsigned corners, unsigned order);
+const DeterminantRule& determinant_rule(unsigned corners, unsigned order, NodeDistribution distribution);
+
+/// Returns Lagrange's polynomials of the nodes of a triangle, in their order, at a place.
+LAMINA_EXPORT std::vector<double> lagrange_in_triangle(unsigned order, NodeDistribution distribution, double s,
+                                                       double t);
 
 }  // namespace lamina::mesh

@@ -82,7 +82,7 @@ inline void differentiate(const DeterminantRule& rule, const std::array<Lanes, m
     differentiate(rule.along, map, result.along, result.largest.size);
     differentiate(rule.across, map, result.across, result.largest.size);
     // Each of n products and sums rounds, and so has the local coordinate (Higham, section 3.1).
-    const double of_map = (static_cast<double>(n) + 2) * rounding_unit * rule.largest_row;
+    const double of_map = ((static_cast<double>(n) + 2) * rounding_unit + rule.error_of_factors) * rule.largest_row;
     result.largest.error = 2 * of_map * largest + rounding_unit * result.largest.size;
 }
 
@@ -92,9 +92,8 @@ struct StraightSides {
     Lanes largest_along{}, largest_across{}, largest{}, bend{};
 };
 
-inline void measure_sides(unsigned corners, unsigned p, const std::array<Lanes, most_nodes>& nodes,
-                          StraightSides& sides) {
-    const std::span<const LatticePlace> lattice = lattice_of_cell(corners, p);
+inline void measure_sides(unsigned corners, std::span<const NodePlace> places,
+                          const std::array<Lanes, most_nodes>& nodes, StraightSides& sides) {
     const Lanes a = nodes[1] - nodes[0], b = nodes[2] - nodes[0], c = nodes[corners - 1] - nodes[0];
     const Lanes twist = corners == 3 ? Lanes{} : b - a - c;
     sides.along = {a, a + twist};
@@ -104,8 +103,8 @@ inline void measure_sides(unsigned corners, unsigned p, const std::array<Lanes, 
         raise_to_size(sides.largest_across, sides.across[k]);
     }
     sides.largest = sides.largest_along + sides.largest_across;
-    for (std::size_t n = corners; n < lattice.size(); ++n) {
-        const double s = static_cast<double>(lattice[n].i) / p, t = static_cast<double>(lattice[n].j) / p;
+    for (std::size_t n = corners; n < places.size(); ++n) {
+        const double s = places[n].s, t = places[n].t;
         raise_to_size(sides.bend, nodes[n] - nodes[0] - s * a - t * c - (s * t) * twist);
     }
     sides.bend += 64 * rounding_unit * sides.largest;  // of a dozen operations on numbers up to twice this large
@@ -130,11 +129,11 @@ inline void add_error_of_bend(double slope, const Lanes& x_size, const Lanes& x_
 }
 
 /// The determinant of a straight cell lies between those at its corners.
-inline void bound_straight(unsigned corners, unsigned p, double slope, const JacobianBatch& batch,
-                           SimpleBounds& bounds) {
+inline void bound_straight(const DeterminantRule& rule, const JacobianBatch& batch, SimpleBounds& bounds) {
     StraightSides x, y;
-    measure_sides(corners, p, batch.x, x);
-    measure_sides(corners, p, batch.y, y);
+    const std::span<const NodePlace> places = places_of_nodes(rule.grid.corners, rule.order, rule.distribution);
+    measure_sides(rule.grid.corners, places, batch.x, x);
+    measure_sides(rule.grid.corners, places, batch.y, y);
     for (std::size_t k = 0; k < 4; ++k) {
         const Lanes determinant = x.along[k / 2] * y.across[k % 2] - y.along[k / 2] * x.across[k % 2];
         if (k == 0) bounds.lower = bounds.upper = determinant;
@@ -143,7 +142,7 @@ inline void bound_straight(unsigned corners, unsigned p, double slope, const Jac
     }
     constexpr double for_underflow = 1e-290, for_rounding_of_this = 2;
     bounds.error = 64 * rounding_unit * x.largest * y.largest;
-    add_error_of_bend(slope, x.largest, x.bend, y.largest, y.bend, bounds.error);
+    add_error_of_bend(rule.slope_of_bend, x.largest, x.bend, y.largest, y.bend, bounds.error);
     bounds.error = for_rounding_of_this * bounds.error + for_underflow;
     bounds.lower -= bounds.error;
     bounds.upper += bounds.error;
@@ -168,8 +167,10 @@ struct TwoCurves {
     Lanes bend{};                        ///< how far nodes are off the lines, times no factor
 };
 
-inline void measure_curves(const CurveRule& rule, std::span<const LatticePlace> lattice, unsigned p,
+inline void measure_curves(const DeterminantRule& of_cell, std::span<const LatticePlace> lattice,
                            const std::array<Lanes, most_nodes>& nodes, TwoCurves& curves) {
+    const CurveRule& rule = of_cell.curve;
+    const unsigned p = of_cell.order;
     std::array<std::array<Lanes, max_cell_order + 1>, max_cell_order + 1> local;  // by both steps
     Lanes largest{};
     for (std::size_t n = 0; n < lattice.size(); ++n) {
@@ -178,7 +179,7 @@ inline void measure_curves(const CurveRule& rule, std::span<const LatticePlace> 
         raise_to_size(largest, place);
     }
     for (unsigned i = 1; i < p; ++i) {
-        const double share = static_cast<double>(i) / p;
+        const double share = place_on_edge(p, i, of_cell.distribution);
         for (unsigned j = 0; j <= p; ++j)
             raise_to_size(curves.bend, local[i][j] - local[0][j] - share * (local[p][j] - local[0][j]));
     }
@@ -200,7 +201,7 @@ inline void measure_curves(const CurveRule& rule, std::span<const LatticePlace> 
             curves.slopes[side][a] = rule.weights_of_derivative[a] * slope;
         }
     }
-    const double of_map = (p + 3) * rounding_unit * rule.largest_row;  // as in differentiate()
+    const double of_map = ((p + 3) * rounding_unit + of_cell.error_of_factors) * rule.largest_row;  // differentiate()
     curves.largest.error = 2 * of_map * largest + rounding_unit * curves.largest.size;
 }
 
@@ -210,8 +211,8 @@ inline void bound_linear(const DeterminantRule& rule, const JacobianBatch& batch
     const unsigned p = rule.order;
     const std::span<const LatticePlace> lattice = lattice_of_cell(4, p);
     TwoCurves x, y;
-    measure_curves(rule.curve, lattice, p, batch.x, x);
-    measure_curves(rule.curve, lattice, p, batch.y, y);
+    measure_curves(rule, lattice, batch.x, x);
+    measure_curves(rule, lattice, batch.y, y);
     for (std::size_t side = 0; side < 2; ++side) {
         std::array<Lanes, std::size_t{2} * max_cell_order> sums{};
         for (unsigned a = 0; a <= p; ++a)
@@ -282,7 +283,7 @@ inline void bound_coefficients(const DeterminantRule& rule, const JacobianBatch&
 /// Bounds the determinants of straight cells by their corners, those of quadrilaterals that are linear in one direction
 /// by the curves on both sides, and those of others by all coefficients.
 inline void bound_lanes(const DeterminantRule& rule, const JacobianBatch& batch, Determinants& determinants) {
-    bound_straight(rule.grid.corners, rule.order, rule.slope_of_bend, batch, determinants.straight);
+    bound_straight(rule, batch, determinants.straight);
     const auto are_tight = [&] {
         std::size_t tight = 0;
         while (tight < batch.size && determinants.tight(tight) != nullptr) ++tight;
@@ -431,8 +432,9 @@ JacobianBounds bounds_of(const DeterminantRule& rule, const Determinants& determ
 }  // namespace
 
 std::array<JacobianBounds, JacobianBatch::capacity> bound_jacobians(unsigned corners, unsigned order,
-                                                                    const JacobianBatch& batch) {
-    const DeterminantRule& rule = determinant_rule(corners, order);
+                                                                    const JacobianBatch& batch,
+                                                                    NodeDistribution distribution) {
+    const DeterminantRule& rule = determinant_rule(corners, order, distribution);
     Determinants determinants;
     (has_avx2() ? bound_all_avx2 : bound_all)(rule, batch, determinants);
     std::array<JacobianBounds, JacobianBatch::capacity> bounds;
@@ -440,12 +442,13 @@ std::array<JacobianBounds, JacobianBatch::capacity> bound_jacobians(unsigned cor
     return bounds;
 }
 
-JacobianBounds bound_jacobian(unsigned corners, unsigned order, std::span<const Point> nodes) {
+JacobianBounds bound_jacobian(unsigned corners, unsigned order, std::span<const Point> nodes,
+                              NodeDistribution distribution) {
     assert(nodes.size() == nodes_of_cell(corners, order));
     JacobianBatch batch;
     for (std::size_t i = 0; i < nodes.size(); ++i) batch.put(i, nodes[i]);
     batch.add_cell();
-    return bound_jacobians(corners, order, batch)[0];
+    return bound_jacobians(corners, order, batch, distribution)[0];
 }
 
 }  // namespace lamina::mesh

@@ -36,7 +36,8 @@ struct JacobianBounds {
 /// Bounds the determinant of a cell with 3 or 4 corners, whose nodes are in the order of lattice_of_cell(). Coordinates
 /// are taken as they are; a bound of all rounding errors is taken off. Precondition: as many nodes as nodes_of_cell()
 /// says, with finite coordinates.
-LAMINA_EXPORT JacobianBounds bound_jacobian(unsigned corners, unsigned order, std::span<const Point> nodes);
+LAMINA_EXPORT JacobianBounds bound_jacobian(unsigned corners, unsigned order, std::span<const Point> nodes,
+                                            NodeDistribution distribution = NodeDistribution::equidistant);
 
 /// The nodes of several cells of one shape and order.
 struct JacobianBatch {
@@ -62,7 +63,8 @@ struct JacobianBatch {
 };
 
 /// Does what bound_jacobian() does for each cell of a batch, all with 3 or 4 corners.
-LAMINA_EXPORT std::array<JacobianBounds, JacobianBatch::capacity> bound_jacobians(unsigned corners, unsigned order,
-                                                                                  const JacobianBatch& batch);
+LAMINA_EXPORT std::array<JacobianBounds, JacobianBatch::capacity> bound_jacobians(
+    unsigned corners, unsigned order, const JacobianBatch& batch,
+    NodeDistribution distribution = NodeDistribution::equidistant);
 
 }  // namespace lamina::mesh

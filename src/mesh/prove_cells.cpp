@@ -55,7 +55,7 @@ CellProofs prove_cells(const MeshView& mesh, const CurvedNodes& nodes) {
                 for_each_node(mesh, nodes, cell++, [&](std::size_t i, Point place) { batch.put(i, place); });
                 batch.add_cell();
             }
-            const auto bounds = bound_jacobians(static_cast<unsigned>(corners), nodes.order, batch);
+            const auto bounds = bound_jacobians(static_cast<unsigned>(corners), nodes.order, batch, nodes.distribution);
             for (std::size_t i = 0; i < batch.size; ++i) add_proof(first + i, bounds[i], block);
         }
         return block;

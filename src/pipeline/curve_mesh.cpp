@@ -11,7 +11,7 @@
 #include <lamina/error.hpp>
 
 #include "core/lexicographic_order.hpp"
-#include "mesh/curve_cells.hpp"
+#include "mesh/cell_lattice.hpp"
 #include "pipeline/assemble.hpp"
 #include "pipeline/close_sheets.hpp"
 
@@ -30,7 +30,7 @@ struct CurvesByEdges {
 };
 
 /// Finds the edges of the mesh between two points of the same curve.
-CurvesByEdges curves_by_edges(const surface::WallCurves& curves, unsigned order, const Mesh& mesh) {
+CurvesByEdges curves_by_edges(const surface::WallCurves& curves, const mesh::CellOrder& order, const Mesh& mesh) {
     constexpr double rounding = 1e-9;
     const core::LexicographicOrder precedes;
     const std::span<const CurvedEdge> edges = curves.edges();
@@ -47,8 +47,8 @@ CurvesByEdges curves_by_edges(const surface::WallCurves& curves, unsigned order,
             if (!stretch) continue;
             followed[static_cast<std::size_t>(stretch->edge - edges.data())] += stretch->to - stretch->from;
             mesh::WallCurve& wall = by_edges.walls.emplace_back(mesh::WallCurve{edge, {}});
-            for (unsigned k = 2 * order - 1; k > 0; --k)
-                wall.between.push_back(stretch->at(static_cast<double>(k) / (2 * order)));
+            for (unsigned k = 2 * order.order - 1; k > 0; --k)
+                wall.between.push_back(stretch->at(mesh::half_step_on_edge(order.order, k, order.distribution)));
         }
     }
     // Edges below a line of symmetry are in no mesh, nor are those whose ends were moved back to given points.
@@ -100,6 +100,8 @@ void report_straight_edges(const surface::WallCurves& curves, std::span<const st
 
 void validate_order(const CaseOptions& options) {
     const auto refuse = [](const char* reason) { throw OptionError("order", reason); };
+    if (options.order == 1 && options.node_distribution != NodeDistribution::equidistant)
+        throw OptionError("node_distribution", "straight cells have no nodes: give an --order");
     if (options.order == 1) return;
     if (options.layer.enabled && options.layer.topology == LayerTopology::delaunay)
         refuse("curved cells stand in columns: take --layer-topology quads or layered");
@@ -112,7 +114,7 @@ void refuse_curved_sheets(unsigned order, const Geometry& geometry) {
     if (order > 1 && has_sheets(geometry)) throw OptionError("order", sheets_are_straight);
 }
 
-void curve_mesh(unsigned order, const surface::WallCurves& curves, MeshResult& result) {
+void curve_mesh(const mesh::CellOrder& order, const surface::WallCurves& curves, MeshResult& result) {
     if (result.layer_grid_refused)
         throw MeshError("the cells of the layer form no columns, which curved cells need: leave the order out");
     const CurvesByEdges by_edges = curves_by_edges(curves, order, result.mesh);

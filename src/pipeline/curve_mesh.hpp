@@ -3,6 +3,7 @@
 
 #include <lamina/pipeline.hpp>
 
+#include "mesh/curve_cells.hpp"
 #include "surface/wall_curves.hpp"
 
 namespace lamina::pipeline {
@@ -15,7 +16,7 @@ void refuse_curved_sheets(unsigned order, const Geometry& geometry);
 
 /// Makes the cells of a mesh follow these curves of its walls, proves them valid, and records both in the result, with
 /// a warning of parts of edges that are beside the curve and straight. Throws MeshError where the cells of the layer
-/// form no columns. Precondition: order > 1, and no element has sheets.
-void curve_mesh(unsigned order, const surface::WallCurves& curves, MeshResult& result);
+/// form no columns. Precondition: the order is above 1, and no element has sheets.
+void curve_mesh(const mesh::CellOrder& order, const surface::WallCurves& curves, MeshResult& result);
 
 }  // namespace lamina::pipeline

@@ -53,6 +53,13 @@ OptionTable<CaseOptions> make_pipeline_rows() {
         "order of the cells: 1 for straight ones, 2 to 4 for curved ones that follow the walls, each proved valid; "
         "MSH, VTU, CGNS, MFEM and Nektar++ alone",
         numbers_from_to(1, max_cell_order), member_at(&CaseOptions::order));
+    files.choice(
+        "node-distribution",
+        "where the nodes of curved cells are on straight ones: evenly spaced, or at the points of Gauss and Lobatto's "
+        "quadrature, which MFEM and Nektar++ alone take",
+        Choices<NodeDistribution>{{"equidistant", NodeDistribution::equidistant},
+                                  {"gauss-lobatto", NodeDistribution::gauss_lobatto}},
+        member_at(&CaseOptions::node_distribution));
     run.count("threads", "N", "number of threads; 0: one per core; never changes the mesh", numbers_from_to(0, 1024),
               member_at(&CaseOptions::threads));
     constexpr double least_count = 100, most_count = 4e9;

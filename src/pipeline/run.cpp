@@ -218,7 +218,7 @@ MadeMesh run(const Geometry& whole, const CaseOptions& options, MeshDriver& driv
     MeshResult& result = made.result;
     if (options.order > 1) {
         clock.begin("curving");
-        curve_mesh(options.order, *plan.fitted.curves, result);
+        curve_mesh({options.order, options.node_distribution}, *plan.fitted.curves, result);
         clock.end(&StageSeconds::curving);
     }
     hand_over_decisions(plan, result);

@@ -52,7 +52,7 @@ private:
         DrawnEdge edge{.count = DrawnEdge::most_chords + 1};
         for (std::size_t k = 0; k < edge.count; ++k)
             edge.points[k] = mesh::point_of_edge(std::span(all).first(nodes_.order + 1),
-                                                 static_cast<double>(k) / DrawnEdge::most_chords);
+                                                 static_cast<double>(k) / DrawnEdge::most_chords, nodes_.distribution);
         return edge;
     }
 

@@ -350,6 +350,22 @@ TEST(CurvedFiles, AreConvertedDrawnAndViewed) {
     EXPECT_FALSE(std::filesystem::exists(folder / "good.su2"));
 }
 
+TEST(CurvedFiles, OfGaussAndLobattosNodesStayWithFormatsThatHoldThem) {
+    const TemporaryFolder folder;
+    const std::vector<std::string> words{
+        "mesh",        "naca:0012", "--order",     "3",   "--layer-topology",    "quads",         "--layers", "4",
+        "--far-field", "3",         "--gradation", "0.4", "--node-distribution", "gauss-lobatto", "-o"};
+    const auto to = [&](const char* file) {
+        std::vector<std::string> all = words;
+        all.emplace_back(file);
+        return all;
+    };
+    const ProgramRun refused = run_lamina(folder, to("m.msh"));
+    EXPECT_EQ(refused.exit_code, usage);
+    EXPECT_NE(refused.err.find("format 'msh41' has evenly spaced nodes"), std::string::npos) << refused.err;
+    ASSERT_EQ(run_lamina(folder, to("m.xml")).exit_code, 0);
+}
+
 TEST(CheckCommand, ProvesCurvedCells) {
     const TemporaryFolder folder;
     folder.write("good.msh", curved_triangle(-0.1));

@@ -555,6 +555,7 @@ TEST(SolverCaseCommand, PyfrIsRefusedWhatItDoesNotKnow) {
     const TemporaryFolder folder;
     expect_refused(folder, small_case("su2", {"--order", "2"}), usage, "pyfr");
     expect_refused(folder, small_case("pyfr", {"--order", "5"}), usage, "order");
+    expect_refused(folder, small_case("pyfr", {"--node-distribution", "gauss-lobatto"}), usage, "evenly spaced");
     expect_refused(folder, small_case("pyfr", {"--turbulence", "sa"}), usage, "laminar");
     expect_refused(folder, small_case("pyfr", {"--mach", "1.2"}), usage, "below 1 in a case of PyFR");
     expect_refused(folder, small_case("pyfr", {"--layer-topology", "delaunay"}), usage, "quads or layered");

@@ -11,6 +11,7 @@
 
 #include "core/random.hpp"
 #include "mesh/cell_lattice.hpp"
+#include "mesh/determinant_rule.hpp"
 #include "mesh/jacobian_bounds.hpp"
 
 namespace lamina::mesh {
@@ -216,6 +217,65 @@ TEST(JacobianBounds, AgreeWithRationalArithmetic) {
             }
     EXPECT_GT(valid, 50u);
     EXPECT_GT(invalid, 20u);
+}
+
+/// Returns a cell of evenly spaced nodes at a place, by products of Lagrange's polynomials.
+Point point_at(unsigned corners, unsigned p, const std::vector<Coordinates<double>>& nodes, double s, double t) {
+    const std::span<const LatticePlace> lattice = lattice_of_cell(corners, p);
+    Point sum{0, 0};
+    for (std::size_t n = 0; n < lattice.size(); ++n) {
+        const auto [i, j] = lattice[n];
+        const unsigned k = p - i - j;
+        const double weight =
+            corners == 4 ? lagrange_on(p, p, i, s).f * lagrange_on(p, p, j, t).f
+                         : lagrange_on(p, i, i, s).f * lagrange_on(p, j, j, t).f * lagrange_on(p, k, k, 1 - s - t).f;
+        sum = sum + weight * Point{nodes[n].x, nodes[n].y};
+    }
+    return sum;
+}
+
+TEST(JacobianBounds, AreTheSameForNodesOfGaussAndLobatto) {
+    constexpr NodeDistribution lobatto = NodeDistribution::gauss_lobatto;
+    core::Random random(5);
+    std::size_t valid = 0, invalid = 0;
+    for (int round = 0; round < 300; ++round)
+        for (const unsigned corners : every_shape)
+            for (unsigned p = 1; p <= max_cell_order; ++p) {
+                const auto nodes = random_cell(corners, p, random);
+                std::vector<Point> moved;
+                for (const auto [s, t] : places_of_nodes(corners, p, lobatto))
+                    moved.push_back(point_at(corners, p, nodes, s, t));
+                const JacobianBounds expected = bound_jacobian(corners, p, points_of(nodes)),
+                                     bounds = bound_jacobian(corners, p, moved, lobatto);
+                const double rounding = 0x1p-19 * expected.upper;  // cells that are all but straight have such bounds
+                if (expected.verdict != CellVerdict::unproved) EXPECT_EQ(bounds.verdict, expected.verdict);
+                EXPECT_NEAR(bounds.upper, expected.upper, rounding);
+                if (expected.verdict != CellVerdict::valid) {
+                    invalid += expected.verdict == CellVerdict::invalid;
+                    continue;
+                }
+                ++valid;
+                EXPECT_NEAR(bounds.lower, expected.lower, rounding);
+            }
+    EXPECT_GT(valid, 500u);
+    EXPECT_GT(invalid, 100u);
+}
+
+TEST(DeterminantRules, KnowLagrangesPolynomialsOfBothDistributions) {
+    for (const NodeDistribution distribution : {NodeDistribution::equidistant, NodeDistribution::gauss_lobatto})
+        for (unsigned p = 1; p <= max_cell_order; ++p) {
+            const std::span<const NodePlace> places = places_of_nodes(3, p, distribution);
+            for (std::size_t n = 0; n < places.size(); ++n) {
+                const std::vector<double> at_node = lagrange_in_triangle(p, distribution, places[n].s, places[n].t);
+                for (std::size_t m = 0; m < places.size(); ++m) EXPECT_NEAR(at_node[m], m == n ? 1 : 0, 4e-15);
+            }
+            double slope = 0;  // of Legendre's polynomial, which nodes within [0, 1] have as zeros of its derivative
+            for (unsigned i = 1; i < p && p > 2 && distribution == NodeDistribution::gauss_lobatto; ++i) {
+                const double x = 2 * place_on_edge(p, i, distribution) - 1;
+                slope = std::max(slope, std::abs(p == 3 ? 7.5 * x * x - 1.5 : 17.5 * x * x * x - 7.5 * x));
+            }
+            EXPECT_LT(slope, 1e-14);
+        }
 }
 
 /// Returns a cell with straight edges and evenly spaced nodes.

@@ -325,6 +325,22 @@ TEST(CurvedCells, KeepCornersAndBasesAndPointsGiven) {
     EXPECT_LT(wall_error(curved, distance_from_naca_0012), 0.1 * wall_error(kept, distance_from_naca_0012));
 }
 
+TEST(CurvedCells, WithNodesOfGaussAndLobattoAreProvedAndOnWalls) {
+    for (const LayerTopology topology : {LayerTopology::quads, LayerTopology::layered})
+        for (const unsigned order : {3u, 4u}) {
+            CaseOptions options = curved_options(order, topology);
+            const MeshResult even = mesh_of({naca("0012", 200)}, options);
+            options.node_distribution = NodeDistribution::gauss_lobatto;
+            const MeshResult lobatto = mesh_of({naca("0012", 200)}, options);
+            expect_proved(lobatto, order);
+            EXPECT_EQ(mesh_hash(lobatto.mesh), mesh_hash(even.mesh));
+            EXPECT_EQ(lobatto.curving.curved_edges, even.curving.curved_edges);
+            EXPECT_LT(largest_distance_of_nodes(lobatto, curves_of(naca("0012", 200))), 1e-14);
+            EXPECT_LT(lobatto.curving.wall_distance, 1.5 * even.curving.wall_distance);
+            EXPECT_NEAR(lobatto.curved_check.min_scaled_jacobian, even.curved_check.min_scaled_jacobian, 0.05);
+        }
+}
+
 TEST(CurvedCells, ThatAreWrongAreFound) {
     MeshResult result = generate_mesh({"naca:0012"}, curved_options(2));
     CurvedNodes nodes = result.curved;

@@ -218,6 +218,21 @@ def test_curved(order, tmp_path):
         lamina.MorphMap(mesh)
 
 
+def test_nodes_of_gauss_and_lobatto(tmp_path):
+    mesh = lamina.mesh("naca:0012", order=3, node_distribution="gauss-lobatto", layer_topology="quads", layers=4,
+                       far_field=3, gradation=0.4)
+    assert mesh.node_distribution == "gauss-lobatto" and mesh.quality().valid
+    edge = mesh.nodes[mesh.marker_nodes["farfield"]]
+    share = np.linalg.norm(edge[:, 2] - edge[:, 0], axis=1) / np.linalg.norm(edge[:, 1] - edge[:, 0], axis=1)
+    assert np.allclose(share, (1 - 5**-0.5) / 2)
+    mesh.write(tmp_path / "m.xml")
+    same = pickle.loads(pickle.dumps(mesh))
+    assert same == mesh and same.node_distribution == "gauss-lobatto"
+    with pytest.raises(lamina.UsageError, match="evenly spaced"):
+        mesh.write(tmp_path / "m.vtu")
+    assert lamina.mesh("naca:0012", order=2, layers=4, far_field=3).node_distribution == "equidistant"
+
+
 def test_nodes_of_no_cells_have_their_shape():
     mesh = lamina.mesh_of_arrays([[0, 0], [1, 0], [0, 1]], [[0, 1, 2]], {"side": [[0, 1], [1, 2], [2, 0]], "none": []})
     assert mesh.cell_nodes["quads"].shape == (0, 4) and mesh.marker_nodes["none"].shape == (0, 2)
