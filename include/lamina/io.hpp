@@ -77,7 +77,7 @@ LAMINA_EXPORT void write_curved_mesh(const MeshView& mesh, const CurvedNodes& no
 LAMINA_EXPORT void require_curved_format(const std::filesystem::path& file, const WriteOptions& options = {},
                                          unsigned order = 2,
                                          NodeDistribution distribution = NodeDistribution::equidistant);
-/// Reads a mesh whose cells may be curved, all of one order: MSH, VTU and CGNS. Other formats are read as
+/// Reads a mesh whose cells may be curved, all of one order: MSH, VTU, CGNS and Nektar++. Other formats are read as
 /// read_mesh() does; their order is 1. Throws InputError where the file is malformed.
 LAMINA_EXPORT CurvedMesh read_curved_mesh(const std::filesystem::path& file, const ReadOptions& options = {});
 

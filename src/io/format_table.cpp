@@ -294,6 +294,8 @@ FormatRow nektar_row() {
             .write = write_one_straight_file<write_nektar>,
             .files = one_file,
             .write_curved = write_one_curved_file<write_nektar>,
+            .read_curved = read_one_file<read_curved_nektar>,
+            .read = read_one_file<read_nektar>,
             .one_stream = true,
             .internal_markers = true,
             .gauss_lobatto = true};

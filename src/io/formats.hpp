@@ -138,6 +138,10 @@ void write_msh(const MeshView& mesh, const CurvedNodes& nodes, const std::filesy
 void write_mfem(const MeshView& mesh, const CurvedNodes& nodes, const std::filesystem::path& file, std::ostream& out);
 /// Writes a mesh with straight or curved cells in the format of Nektar++.
 void write_nektar(const MeshView& mesh, const CurvedNodes& nodes, const std::filesystem::path& file, std::ostream& out);
+/// Reads a plane mesh of Nektar++ that is not compressed, with curves of one order.
+CurvedMesh read_curved_nektar(const std::string& bytes, const std::filesystem::path& file);
+/// Reads a mesh with straight cells.
+Mesh read_nektar(const std::string& bytes, const std::filesystem::path& file);
 /// Writes version 2.2, ASCII, in space.
 void write_msh_extruded(const MeshView& mesh, const std::filesystem::path& file, const Extrusion& extrusion,
                         std::ostream& out);

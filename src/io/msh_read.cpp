@@ -20,6 +20,7 @@
 #include "core/marker_names.hpp"
 #include "io/byte_reader.hpp"
 #include "io/curved_lists.hpp"
+#include "io/file_numbers.hpp"
 #include "io/formats.hpp"
 #include "io/mesh_parts.hpp"
 #include "io/msh_elements.hpp"
@@ -29,32 +30,6 @@
 namespace lamina::io {
 
 namespace {
-
-/// Finds nodes by the numbers that the file gives them.
-class NodeNumbers {
-public:
-    void add(std::size_t number) { numbers_.push_back({number, numbers_.size()}); }
-    /// Must be called once all numbers are added. Returns false where two nodes have the same number.
-    bool sort() {
-        in_order_ = true;
-        for (std::size_t i = 0; i < numbers_.size() && in_order_; ++i) in_order_ = numbers_[i].first == i + 1;
-        if (in_order_) return true;
-        std::sort(numbers_.begin(), numbers_.end());
-        return std::adjacent_find(numbers_.begin(), numbers_.end(),
-                                  [](const auto& a, const auto& b) { return a.first == b.first; }) == numbers_.end();
-    }
-    /// Returns the position of the node in the file; nothing where no node has this number.
-    std::optional<VertexId> find(std::size_t number) const {
-        if (in_order_) return number - 1 < numbers_.size() ? std::optional(VertexId(number - 1)) : std::nullopt;
-        const auto found = std::lower_bound(numbers_.begin(), numbers_.end(), std::pair(number, std::size_t{0}));
-        if (found == numbers_.end() || found->first != number) return std::nullopt;
-        return VertexId(found->second);
-    }
-
-private:
-    std::vector<std::pair<std::size_t, std::size_t>> numbers_;  ///< numbers and positions
-    bool in_order_ = false;                                     ///< whether the nodes are numbered 1, 2, 3 ...
-};
 
 class MshReader {
 public:
@@ -255,7 +230,7 @@ private:
     VertexId find_node(Number number) const {
         const auto found = nodes_.find(static_cast<std::size_t>(number));
         if (!found) in_.fail(fmt::format("node {} is not in $Nodes", number));
-        return *found;
+        return VertexId(*found);
     }
     template <class Number>
     void read_volume(int type, int group) {
@@ -405,7 +380,7 @@ private:
     bool version_4_ = true, has_nodes_ = false, has_elements_ = false;
     SpaceMesh space_;                 ///< heights of all nodes, and the volumes
     std::vector<int> volume_groups_;  ///< per volume: its physical group, or 0
-    NodeNumbers nodes_;
+    FileNumbers nodes_{1};
     std::map<EntityKey, std::string_view> names_;  ///< of the physical groups
     std::map<EntityKey, int> group_of_entity_;
     std::map<int, std::vector<Segment>> edges_;        ///< lines by physical group

@@ -1,4 +1,4 @@
-// The tags of VTK's XML files.
+// The tags of XML files: VTK's and Nektar++'s.
 #pragma once
 
 #include <cstddef>

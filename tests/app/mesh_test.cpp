@@ -343,8 +343,14 @@ TEST(CurvedFiles, AreConvertedDrawnAndViewed) {
     EXPECT_EQ(run_lamina(folder, {"convert", "good.vtu", "again.msh", "--format", "msh22"}).exit_code, 0);
     const ProgramRun checked = run_lamina(folder, {"check", "again.msh", "--json"});
     EXPECT_EQ(Json::parse(checked.out)["curved"]["order"], 2) << checked.err;
-    EXPECT_EQ(run_lamina(folder, {"plot", "good.vtu", "-o", "good.png"}).exit_code, 0);
-    EXPECT_EQ(run_lamina(folder, {"view", "good.vtu", "--no-open"}).exit_code, 0);
+    EXPECT_EQ(run_lamina(folder, {"convert", "good.vtu", "good.xml"}).exit_code, 0);
+    EXPECT_EQ(run_lamina(folder, {"check", "good.xml"}).exit_code, 0);
+    EXPECT_EQ(run_lamina(folder, {"convert", "good.xml", "of_xml.msh", "--format", "msh22"}).exit_code, 0);
+    EXPECT_EQ(folder.read("of_xml.msh"), folder.read("again.msh"));
+    for (const char* file : {"good.vtu", "good.xml"}) {
+        EXPECT_EQ(run_lamina(folder, {"plot", file, "-o", "good.png"}).exit_code, 0);
+        EXPECT_EQ(run_lamina(folder, {"view", file, "--no-open"}).exit_code, 0);
+    }
     const ProgramRun refused = run_lamina(folder, {"convert", "good.vtu", "good.su2"});
     EXPECT_NE(refused.err.find("format 'su2' holds straight cells"), std::string::npos) << refused.err;
     EXPECT_FALSE(std::filesystem::exists(folder / "good.su2"));
@@ -364,6 +370,11 @@ TEST(CurvedFiles, OfGaussAndLobattosNodesStayWithFormatsThatHoldThem) {
     EXPECT_EQ(refused.exit_code, usage);
     EXPECT_NE(refused.err.find("format 'msh41' has evenly spaced nodes"), std::string::npos) << refused.err;
     ASSERT_EQ(run_lamina(folder, to("m.xml")).exit_code, 0);
+    EXPECT_EQ(run_lamina(folder, {"check", "m.xml"}).exit_code, 0);
+    EXPECT_EQ(run_lamina(folder, {"plot", "m.xml", "-o", "m.png"}).exit_code, 0);
+    EXPECT_EQ(run_lamina(folder, {"convert", "m.xml", "m.mesh"}).exit_code, 0);
+    EXPECT_NE(folder.read("m.mesh").find(" H1_2D_P3\n"), std::string::npos);
+    EXPECT_EQ(run_lamina(folder, {"convert", "m.xml", "m.vtu"}).exit_code, usage);
 }
 
 TEST(CheckCommand, ProvesCurvedCells) {

@@ -2,6 +2,7 @@
 // checked, as `lamina check` does.
 #include <array>
 
+#include <lamina/curved_mesh.hpp>
 #include <lamina/error.hpp>
 #include <lamina/io.hpp>
 
@@ -11,7 +12,8 @@ void lamina::fuzz::fuzz(std::span<const std::uint8_t> input) {
     constexpr auto names = std::to_array<std::string_view>({LAMINA_FUZZ_FILES});
     const InputFiles files(input, names);
     try {
-        check_mesh(read_mesh(files.folder() / LAMINA_FUZZ_OPENED));
+        const CurvedMesh read = read_curved_mesh(files.folder() / LAMINA_FUZZ_OPENED);
+        if (check_mesh(read.mesh).valid() && read.nodes.order > 1) check_curved(read.mesh, read.nodes);
     } catch (const Error&) {
     }
 }

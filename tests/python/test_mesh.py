@@ -226,6 +226,8 @@ def test_nodes_of_gauss_and_lobatto(tmp_path):
     share = np.linalg.norm(edge[:, 2] - edge[:, 0], axis=1) / np.linalg.norm(edge[:, 1] - edge[:, 0], axis=1)
     assert np.allclose(share, (1 - 5**-0.5) / 2)
     mesh.write(tmp_path / "m.xml")
+    again = lamina.read(tmp_path / "m.xml")
+    assert again.node_distribution == "gauss-lobatto" and again.quality().valid
     same = pickle.loads(pickle.dumps(mesh))
     assert same == mesh and same.node_distribution == "gauss-lobatto"
     with pytest.raises(lamina.UsageError, match="evenly spaced"):
