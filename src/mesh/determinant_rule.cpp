@@ -94,48 +94,68 @@ PreciseRows lobatto_rows_of_curve(unsigned p) {
     return rows;
 }
 
+/// Returns the exponent of the barycentric coordinate of a corner in the coefficient, or at the node, of a place.
+unsigned exponent_of(const LatticePlace& place, unsigned p, unsigned corner) {
+    return corner == 0 ? p - place.i - place.j : corner == 1 ? place.i : place.j;
+}
+
 /// Returns the Bernstein coefficients, in the order of a grid, of Lagrange's polynomials of Gauss and Lobatto's nodes on
-/// a triangle. Those on its border are those of its edges. Within it are as many coefficients as nodes, one or three,
-/// of which each belongs to the node of the same exponents: with a for the smaller barycentric coordinates of a node of
-/// order 4 and b = 1 - 2 a for the largest one, their values at the nodes are 12 a^2 b (a J + (b - a) I), where all of
-/// J is 1, and the inverse of that is (I - a J) / (12 a^2 b (b - a)).
-PreciseRows lobatto_rows_of_triangle(unsigned p, const CoefficientGrid& map) {
+/// the border of a triangle: on each edge those of a segment.
+PreciseRows lobatto_rows_of_border(unsigned p, const CoefficientGrid& map) {
     const PreciseRows of_curve = lobatto_rows_of_curve(p);
     const std::span<const LatticePlace> lattice = lattice_of_cell(3, p);
     PreciseRows rows(map.size(), std::vector<Precise>(lattice.size()));
-    const auto exponent = [&](const LatticePlace& node, unsigned corner) {
-        return corner == 0 ? p - node.i - node.j : corner == 1 ? node.i : node.j;
+    const auto set_edge = [&](const LatticePlace& coefficient, unsigned corner) {
+        const unsigned along = (corner + 1) % 3;
+        for (std::size_t n = 0; n < lattice.size(); ++n)
+            if (exponent_of(lattice[n], p, corner) == 0)
+                rows[map.at(coefficient.i, coefficient.j)][n] =
+                    of_curve[exponent_of(coefficient, p, along)][exponent_of(lattice[n], p, along)];
     };
     for (const LatticePlace& coefficient : lattice)
         for (unsigned corner = 0; corner < 3; ++corner)
-            if (exponent(coefficient, corner) == 0)
-                for (std::size_t n = 0; n < lattice.size(); ++n)
-                    if (exponent(lattice[n], corner) == 0)
-                        rows[map.at(coefficient.i, coefficient.j)][n] =
-                            of_curve[exponent(coefficient, (corner + 1) % 3)][exponent(lattice[n], (corner + 1) % 3)];
-    const std::span<const LatticePlace> within = lattice.subspan(std::size_t{3} * p);
+            if (exponent_of(coefficient, p, corner) == 0) set_edge(coefficient, corner);
+    return rows;
+}
+
+/// Returns a Bernstein polynomial at a place in barycentric coordinates.
+Precise bernstein_at(const LatticePlace& coefficient, unsigned p, const std::array<Precise, 3>& place) {
+    Precise value = factorial(p);
+    for (unsigned corner = 0; corner < 3; ++corner)
+        for (unsigned k = 1; k <= exponent_of(coefficient, p, corner); ++k) value *= place[corner] / k;
+    return value;
+}
+
+/// Returns the coefficients of all nodes of a triangle. Within it are as many coefficients as nodes, one or three, of
+/// which each belongs to the node of the same exponents: with a for the smaller barycentric coordinates of a node of
+/// order 4 and b = 1 - 2 a for the largest one, their values at the nodes are 12 a^2 b (a J + (b - a) I), where all of
+/// J is 1, and the inverse of that is (I - a J) / (12 a^2 b (b - a)).
+PreciseRows lobatto_rows_of_triangle(unsigned p, const CoefficientGrid& map) {
+    PreciseRows rows = lobatto_rows_of_border(p, map);
+    const std::span<const LatticePlace> lattice = lattice_of_cell(3, p);
+    const std::size_t border = std::size_t{3} * p, within = lattice.size() - border;
     const Precise x1 = precise_place(p, 1), a = p == 3 ? Precise{1} / 3 : x1 / (2 * x1 + precise_place(p, 2)),
                   b = 1 - 2 * a, size = p == 3 ? 2.0L / 9 : 12 * a * a * b * (b - a);
     // What is left of each polynomial at the nodes within once the border's part is taken off.
-    PreciseRows rest(within.size(), std::vector<Precise>(lattice.size()));
-    for (std::size_t m = 0; m < within.size(); ++m) {
-        rest[m][std::size_t{3} * p + m] = 1;
+    PreciseRows rest(within, std::vector<Precise>(lattice.size()));
+    for (std::size_t m = 0; m < within; ++m) {
+        rest[m][border + m] = 1;
         std::array<Precise, 3> place{};
-        for (unsigned corner = 0; corner < 3; ++corner) place[corner] = exponent(within[m], corner) == 1 ? a : b;
-        for (const LatticePlace& coefficient : lattice.first(std::size_t{3} * p)) {
-            Precise value = factorial(p);
-            for (unsigned corner = 0; corner < 3; ++corner)
-                for (unsigned k = 1; k <= exponent(coefficient, corner); ++k) value *= place[corner] / k;
-            for (std::size_t n = 0; n < lattice.size(); ++n)
-                rest[m][n] -= value * rows[map.at(coefficient.i, coefficient.j)][n];
+        for (unsigned corner = 0; corner < 3; ++corner)
+            place[corner] = exponent_of(lattice[border + m], p, corner) == 1 ? a : b;
+        for (const LatticePlace& coefficient : lattice.first(border)) {
+            const Precise value = bernstein_at(coefficient, p, place);
+            const std::vector<Precise>& row = rows[map.at(coefficient.i, coefficient.j)];
+            for (std::size_t n = 0; n < lattice.size(); ++n) rest[m][n] -= value * row[n];
         }
     }
-    for (std::size_t c = 0; c < within.size(); ++c)
-        for (std::size_t m = 0; m < within.size(); ++m) {
+    for (std::size_t c = 0; c < within; ++c) {
+        std::vector<Precise>& row = rows[map.at(lattice[border + c].i, lattice[border + c].j)];
+        for (std::size_t m = 0; m < within; ++m) {
             const Precise factor = p == 3 ? 1 / size : ((c == m ? 1 : 0) - a) / size;
-            for (std::size_t n = 0; n < lattice.size(); ++n)
-                rows[map.at(within[c].i, within[c].j)][n] += factor * rest[m][n];
+            for (std::size_t n = 0; n < lattice.size(); ++n) row[n] += factor * rest[m][n];
         }
+    }
     return rows;
 }
 
