@@ -182,14 +182,37 @@ struct Refinement {
     double height;  ///< of the layers between the vertices; infinite where it is not known yet
 };
 
+/// Returns the largest distance between the curve of an edge and its chords, if it is divided into so many parts.
+double largest_bend(Point from, Point to, std::size_t parts, const PlaceOnWall& place) {
+    double largest = 0;
+    for (std::size_t k = 0; k < parts; ++k) {
+        const auto at = [&](double step) {
+            return place(from, to, (static_cast<double>(k) + step) / static_cast<double>(parts));
+        };
+        const Point begin = k == 0 ? from : at(0).value_or(from), end = k + 1 == parts ? to : at(1).value_or(to);
+        // Curves with an inflection are on their chord in the middle.
+        for (const double step : {0.25, 0.5, 0.75})
+            if (const std::optional<Point> on_curve = at(step))
+                largest = std::max(largest, core::distance_to_segment(*on_curve, begin, end));
+    }
+    return largest;
+}
+
 /// Returns into how many parts the curve of an edge must be divided for each to bend by no more than a share of the
 /// layers' height: cells of higher order follow it, and where the border divides their tops, the bend fades out below.
 std::size_t parts_of_curve(Point from, Point to, const Refinement& refinement) {
-    const std::optional<Point> middle = refinement.place ? refinement.place(from, to, 0.5) : std::nullopt;
-    if (!middle || refinement.height <= 0) return 1;
-    // Parts of an arc bend by the square of their share of it.
-    const double bend = core::distance_to_segment(*middle, from, to) / (max_bend_of_walls * refinement.height);
-    return std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(std::sqrt(bend) - part_slack)));
+    if (!refinement.place || refinement.height <= 0) return 1;
+    std::size_t parts = 1;
+    constexpr int most_rounds = 8;  // coarse noses take three
+    for (int round = 0; round < most_rounds; ++round) {
+        const double bend = largest_bend(from, to, parts, refinement.place) / (max_bend_of_walls * refinement.height);
+        // Parts of an arc bend by the square of their share of it. At a nose one part bends more than the others.
+        const auto needed =
+            static_cast<std::size_t>(std::ceil(static_cast<double>(parts) * std::sqrt(bend) - part_slack));
+        if (needed <= parts) break;
+        parts = needed;
+    }
+    return parts;
 }
 
 /// Adds the rays between two others that differ by more than the largest angle, or whose wall bends, evenly spaced on
