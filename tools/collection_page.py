@@ -104,6 +104,19 @@ def layer_note(figures):
             "heights off")
 
 
+def keeps_jacobian(figures):
+    """Returns whether the smallest scaled Jacobian of curved cells is within 5 % of that of the straight ones."""
+    return figures.least >= 0.95 * figures.straight
+
+
+def curved_note(figures):
+    """Returns what curved cells have that are worse than straight ones, for the notes of their case."""
+    if not figures or keeps_jacobian(figures) and not figures.reduced:
+        return ""
+    return (f"curved: scaled Jacobian {figures.least:.3f}, straight {figures.straight:.3f}, at ({figures.at[0]:.4g}, "
+            f"{figures.at[1]:.4g}), {figures.reduced} of {figures.wall_edges} wall edges reduced")
+
+
 def notes(result, judgements):
     """Returns what is to be said of a case: reason and judgement where there is no mesh, else what its mesh lacks."""
     figures = result.figures
@@ -118,7 +131,8 @@ def notes(result, judgements):
               (figures.oversized, f"{figures.oversized} triangles too large"))
     warnings = ", ".join(f"`{code}`" + (f" ({n})" if n > 1 else "")
                          for code, n in sorted(Counter(figures.warnings).items()))
-    return "; ".join(filter(None, [warnings, *(text for number, text in counts if number), layer_note(figures.layer)]))
+    return "; ".join(filter(None, [warnings, *(text for number, text in counts if number), layer_note(figures.layer),
+                                   curved_note(figures.curved)]))
 
 
 def row(result, judgements):
@@ -181,7 +195,8 @@ def totals(results, judgements):
              f"corner excuses, and {sum(f.oversized for f in valid)} triangles larger than asked. "
              f"{sum(not f.warnings for f in valid)} have no warning. In {sum(f.rays[1] == 100 for f in valid)} every "
              "ray in the open carries all layers.")
-    return ["", *wrapped(text), *layer_totals([figures.layer for figures in valid if figures.layer])]
+    return ["", *wrapped(text), *layer_totals([figures.layer for figures in valid if figures.layer]),
+            *curved_totals([figures.curved for figures in valid if figures.curved])]
 
 
 def layer_totals(judged):
@@ -195,6 +210,18 @@ def layer_totals(judged):
         f"{sum(map(meets_all, several))} of {len(several)} configurations meet all targets: no angle above 150 "
         "degrees, 99.9 % of the first heights within 1 %, and, where layers end at isotropy, an area ratio to the "
         "triangles beyond of at least 0.5 (1st percentile), 0.8 to 1.25 (median) and at most 2 (99th).")]
+
+
+def curved_totals(judged):
+    """Returns the lines that compare curved cells with the straight ones of the same corners."""
+    if not judged:
+        return []
+    kept = sum(map(keeps_jacobian, judged))
+    return ["", *wrapped(
+        f"Curved cells: {sum(f.cells for f in judged):,}, all proved valid. Their smallest scaled Jacobian is within "
+        f"5 % of that of the straight cells in {kept} of {len(judged)} cases ({100 * kept / len(judged):.1f} %), and "
+        f"{min(f.least for f in judged):.4f} at least. {sum(f.reduced for f in judged)} of "
+        f"{sum(f.wall_edges for f in judged):,} wall edges bend less than the wall.")]
 
 
 def legend(settings):

@@ -30,6 +30,17 @@ class LayerFigures:
 
 
 @dataclasses.dataclass
+class CurvedFigures:
+    """Figures of cells of an order above 1, each proved valid."""
+    cells: int
+    least: float       # smallest scaled Jacobian
+    straight: float    # that of the straight cells with the same corners
+    at: tuple          # where the smallest one is
+    wall_edges: int
+    reduced: int       # wall edges whose bend is less than the wall's
+
+
+@dataclasses.dataclass
 class Figures:
     """Figures of a valid mesh."""
     triangles: int
@@ -44,6 +55,7 @@ class Figures:
     oversized: int       # triangles larger than the size field asks for
     warnings: list       # codes
     layer: "LayerFigures | None"   # of a mesh with a layer
+    curved: "CurvedFigures | None"   # of a mesh with curved cells
 
 
 @dataclasses.dataclass
@@ -120,6 +132,20 @@ def layer_figures(report, options):
         columns=layer["border"]["columns"])
 
 
+def curved_figures(report):
+    """Returns the figures of the curved cells of a mesh from its report; None where cells are straight."""
+    curved = report.get("curved")
+    if not curved:
+        return None
+    return CurvedFigures(
+        cells=report["triangles"] + report["quads"],
+        least=curved["min_scaled_jacobian"],
+        straight=curved["straight_min_scaled_jacobian"],
+        at=tuple(curved["min_scaled_jacobian_at"]),
+        wall_edges=curved["wall_edges"],
+        reduced=curved["reduced_wall_edges"])
+
+
 def figures_of(report, check, options):
     """Returns the figures of a mesh from its report, from what `lamina check` says of the file, and from its options."""
     layer, quality = report["layer_cells"], report["quality"]["isotropic"]
@@ -136,7 +162,8 @@ def figures_of(report, check, options):
         refused=quality["refused_points"],
         oversized=quality["oversized"],
         warnings=[warning["code"] for warning in report["warnings"]],
-        layer=layer_figures(report, options))
+        layer=layer_figures(report, options),
+        curved=curved_figures(report))
 
 
 def mesh_and_check(case, settings, scratch, result):

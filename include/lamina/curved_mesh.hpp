@@ -92,6 +92,8 @@ struct CurvingSummary {
     std::size_t reduced_edges = 0;
     double reduced_distance = 0;  ///< largest distance between such an edge and the curve, in units of the input
     double wall_distance = 0;     ///< largest distance of the others from it, halfway between nodes
+    /// The smallest scaled Jacobian of the straight cells with the same corners, for comparison.
+    double straight_min_scaled_jacobian = 1;
 };
 
 }  // namespace lamina

@@ -85,6 +85,7 @@ nb::dict curving_of(const MeshResult& result) {
     facts["wall_distance"] = result.curving.wall_distance;
     facts["min_scaled_jacobian"] = result.curved_check.min_scaled_jacobian;
     facts["p01_scaled_jacobian"] = result.curved_check.p01_scaled_jacobian;
+    facts["straight_min_scaled_jacobian"] = result.curving.straight_min_scaled_jacobian;
     return facts;
 }
 

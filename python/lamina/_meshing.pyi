@@ -187,8 +187,8 @@ class MeshOptions(TypedDict, total=False):
     # order of the cells: 1 for straight ones, 2 to 4 for curved ones that follow the walls, each proved valid;
     # MSH, VTU, CGNS, MFEM and Nektar++ alone; >= 1 and <= 4 [1]
     order: int | None
-    # where the nodes of curved cells are on straight ones: evenly spaced, or at the points of Gauss and Lobatto's
-    # quadrature, which MFEM and Nektar++ alone take [equidistant]
+    # where the nodes of curved cells are on straight ones: evenly spaced, or at the points of Gauss and
+    # Lobatto's quadrature, which MFEM and Nektar++ alone take [equidistant]
     node_distribution: Literal["equidistant", "gauss-lobatto"] | None
     # number of threads; 0: one per core; never changes the mesh; >= 0 and <= 1024 [0]
     threads: int | None

@@ -69,6 +69,9 @@ Json curved_report(const MeshResult& result) {
             {"wall_distance", result.curving.wall_distance},
             {"min_scaled_jacobian", result.curved_check.min_scaled_jacobian},
             {"p01_scaled_jacobian", result.curved_check.p01_scaled_jacobian},
+            {"min_scaled_jacobian_at",
+             {result.curved_check.min_scaled_jacobian_at.x, result.curved_check.min_scaled_jacobian_at.y}},
+            {"straight_min_scaled_jacobian", result.curving.straight_min_scaled_jacobian},
             {"seconds", result.seconds.curving}};
 }
 

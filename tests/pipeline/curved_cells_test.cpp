@@ -341,6 +341,9 @@ TEST(CurvedCells, WithNodesOfGaussAndLobattoAreProvedAndOnWalls) {
         EXPECT_LT(largest_distance_of_nodes(lobatto, curves_of(naca("0012", 200))), 1e-14);
         EXPECT_LT(lobatto.curving.wall_distance, 1.5 * even.curving.wall_distance);
         EXPECT_NEAR(lobatto.curved_check.min_scaled_jacobian, even.curved_check.min_scaled_jacobian, 0.05);
+        const double straight = even.curving.straight_min_scaled_jacobian;
+        EXPECT_EQ(straight == 1, topology == LayerTopology::layered);
+        EXPECT_GE(even.curved_check.min_scaled_jacobian, 0.95 * straight);
     }
 }
 
