@@ -79,7 +79,7 @@ TEST(CurveCells, OfThinColumnsFollowTheWall) {
                 SCOPED_TRACE(testing::Message() << of_quads << ", order " << order << ", layers " << layers);
                 const Ring ring = make_ring(of_quads, order, layers);
                 ASSERT_TRUE(check_mesh(ring.mesh).valid());
-                const CurvedCells curved = curve_cells(ring.mesh, order, ring.walls, {ring.columns});
+                const CurvedCells curved = curve_cells(ring.mesh, {order}, ring.walls, {ring.columns});
                 EXPECT_EQ(curved.summary.reduced_edges, 0u);
                 EXPECT_EQ(curved.summary.curved_edges, columns_of_ring);
                 const CurvedCheck check = check_curved(ring.mesh, curved.nodes);
@@ -118,7 +118,7 @@ TEST(CurveCells, BendLessWhereTheyWouldFold) {
     // The curve of one edge is as high as five columns.
     Ring ring = make_ring(true, 3, 3);
     bend_first_wall(ring, 1);
-    const CurvedCells curved = curve_cells(ring.mesh, 3, ring.walls, {ring.columns});
+    const CurvedCells curved = curve_cells(ring.mesh, {3}, ring.walls, {ring.columns});
     EXPECT_TRUE(check_curved(ring.mesh, curved.nodes).valid());
     EXPECT_EQ(curved.summary.reduced_edges, 1u);
     EXPECT_EQ(curved.summary.curved_edges, columns_of_ring - 1);
@@ -132,7 +132,7 @@ TEST(CurveCells, BendLessWhereTheyWouldBeSqueezed) {
         for (int step = 0; step <= 60; ++step) {
             Ring ring = make_ring(of_quads, 2, 3);
             bend_first_wall(ring, 0.01 * step);
-            const CurvedCells curved = curve_cells(ring.mesh, 2, ring.walls, {ring.columns});
+            const CurvedCells curved = curve_cells(ring.mesh, {2}, ring.walls, {ring.columns});
             EXPECT_GE(curved.check.min_scaled_jacobian, 0.02) << step;
             reduced += curved.summary.reduced_edges;
         }

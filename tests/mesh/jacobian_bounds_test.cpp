@@ -248,7 +248,9 @@ TEST(JacobianBounds, AreTheSameForNodesOfGaussAndLobatto) {
                 const JacobianBounds expected = bound_jacobian(corners, p, points_of(nodes)),
                                      bounds = bound_jacobian(corners, p, moved, lobatto);
                 const double rounding = 0x1p-19 * expected.upper;  // cells that are all but straight have such bounds
-                if (expected.verdict != CellVerdict::unproved) EXPECT_EQ(bounds.verdict, expected.verdict);
+                if (expected.verdict != CellVerdict::unproved) {
+                    EXPECT_EQ(bounds.verdict, expected.verdict);
+                }
                 EXPECT_NEAR(bounds.upper, expected.upper, rounding);
                 if (expected.verdict != CellVerdict::valid) {
                     invalid += expected.verdict == CellVerdict::invalid;
