@@ -49,9 +49,9 @@ enum class NodeDistribution : std::uint8_t {
 ///                                     |           .
 ///                                     0--3--4--5---1
 struct CurvedNodes {
-    unsigned order = 1;  ///< 1: no nodes, the cells are straight
-    NodeDistribution distribution = NodeDistribution::equidistant;
-    std::vector<Point> points{};             ///< the nodes
+    unsigned order = 1;                                             ///< 1: no nodes, the cells are straight
+    NodeDistribution distribution = NodeDistribution::equidistant;  ///< where they are on the straight cell
+    std::vector<Point> points{};                                    ///< the nodes
     std::vector<VertexId> triangle_nodes{};  ///< per triangle (order + 1) (order + 2) / 2 - 3 of them
     std::vector<VertexId> quad_nodes{};      ///< per quadrilateral (order + 1)^2 - 4
     std::vector<VertexId> marker_nodes{};    ///< per edge of all markers in a row, from its begin to its end: order - 1
