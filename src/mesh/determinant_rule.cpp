@@ -126,6 +126,11 @@ Precise bernstein_at(const LatticePlace& coefficient, unsigned p, const std::arr
     return value;
 }
 
+/// Adds a multiple of a row to another one.
+void add_multiple(Precise factor, const std::vector<Precise>& row, std::vector<Precise>& to) {
+    for (std::size_t n = 0; n < to.size(); ++n) to[n] += factor * row[n];
+}
+
 /// Returns the coefficients of all nodes of a triangle. Within it are as many coefficients as nodes, one or three, of
 /// which each belongs to the node of the same exponents: with a for the smaller barycentric coordinates of a node of
 /// order 4 and b = 1 - 2 a for the largest one, their values at the nodes are 12 a^2 b (a J + (b - a) I), where all of
@@ -146,14 +151,14 @@ PreciseRows lobatto_rows_of_triangle(unsigned p, const CoefficientGrid& map) {
         for (const LatticePlace& coefficient : lattice.first(border)) {
             const Precise value = bernstein_at(coefficient, p, place);
             const std::vector<Precise>& row = rows[map.at(coefficient.i, coefficient.j)];
-            for (std::size_t n = 0; n < lattice.size(); ++n) rest[m][n] -= value * row[n];
+            add_multiple(-value, row, rest[m]);
         }
     }
     for (std::size_t c = 0; c < within; ++c) {
         std::vector<Precise>& row = rows[map.at(lattice[border + c].i, lattice[border + c].j)];
         for (std::size_t m = 0; m < within; ++m) {
             const Precise factor = p == 3 ? 1 / size : ((c == m ? 1 : 0) - a) / size;
-            for (std::size_t n = 0; n < lattice.size(); ++n) row[n] += factor * rest[m][n];
+            add_multiple(factor, rest[m], row);
         }
     }
     return rows;
