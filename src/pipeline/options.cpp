@@ -20,6 +20,34 @@ namespace lamina::pipeline {
 
 namespace {
 
+/// Adds the numbers of vertices and cells that a mesh can be asked to have.
+void add_budgets(OptionTableBuilder<CaseOptions>& outer) {
+    constexpr double least_count = 100, most_count = 4e9;
+    const char* const rule =
+        ", within 3 %, on a mesh of the same first heights: with a scale s that is found by trial, all other lengths, "
+        "angles between rays and gradations are divided by s, and the growth r of layers up to isotropy becomes "
+        "r^(1/s)";
+    outer
+        .count("vertices", "N", std::string("number of vertices") + rule, numbers_from_to(least_count, most_count),
+               member_at(&CaseOptions::vertices))
+        .excludes = {"cells"};
+    outer.count("cells", "N", "number of cells, likewise", numbers_from_to(least_count, most_count),
+                member_at(&CaseOptions::cells));
+}
+
+/// Adds what a run may use.
+void add_limits(OptionTableBuilder<CaseOptions>& run) {
+    run.count("threads", "N", "number of threads; 0: one per core; never changes the mesh", numbers_from_to(0, 1024),
+              member_at(&CaseOptions::threads));
+    run.count("max-triangles", "N",
+              "largest number of triangles; a run that needs more, by estimate, is refused before the work",
+              numbers_from_to(1, 1e15), member_at(&CaseOptions::limits, &WorkLimits::max_triangles));
+    run.spec("max-memory", "SIZE",
+             "largest memory of the process, such as 500M or 2G; a run that needs more, by estimate, is refused before "
+             "the work; the program's default is 80 % of what is free",
+             core::parse_memory, core::memory_text, member_at(&CaseOptions::limits, &WorkLimits::max_memory_bytes));
+}
+
 /// Makes the rows that belong to no stage, or that are stricter here than in their stage.
 OptionTable<CaseOptions> make_pipeline_rows() {
     OptionTableBuilder<CaseOptions> flow("Flow"), outer("Outer region"), files("Files"), run("Run");
@@ -60,26 +88,8 @@ OptionTable<CaseOptions> make_pipeline_rows() {
         Choices<NodeDistribution>{{"equidistant", NodeDistribution::equidistant},
                                   {"gauss-lobatto", NodeDistribution::gauss_lobatto}},
         member_at(&CaseOptions::node_distribution));
-    run.count("threads", "N", "number of threads; 0: one per core; never changes the mesh", numbers_from_to(0, 1024),
-              member_at(&CaseOptions::threads));
-    constexpr double least_count = 100, most_count = 4e9;
-    const char* const rule =
-        ", within 3 %, on a mesh of the same first heights: with a scale s that is found by trial, all other lengths, "
-        "angles "
-        "between rays and gradations are divided by s, and the growth r of layers up to isotropy becomes r^(1/s)";
-    outer
-        .count("vertices", "N", std::string("number of vertices") + rule, numbers_from_to(least_count, most_count),
-               member_at(&CaseOptions::vertices))
-        .excludes = {"cells"};
-    outer.count("cells", "N", "number of cells, likewise", numbers_from_to(least_count, most_count),
-                member_at(&CaseOptions::cells));
-    run.count("max-triangles", "N",
-              "largest number of triangles; a run that needs more, by estimate, is refused before the work",
-              numbers_from_to(1, 1e15), member_at(&CaseOptions::limits, &WorkLimits::max_triangles));
-    run.spec("max-memory", "SIZE",
-             "largest memory of the process, such as 500M or 2G; a run that needs more, by estimate, is refused before "
-             "the work; the program's default is 80 % of what is free",
-             core::parse_memory, core::memory_text, member_at(&CaseOptions::limits, &WorkLimits::max_memory_bytes));
+    add_budgets(outer);
+    add_limits(run);
     OptionTable<CaseOptions> rows;
     for (auto* builder : {&flow, &outer, &files, &run})
         for (Option<CaseOptions>& option : builder->take()) rows.push_back(std::move(option));
