@@ -73,7 +73,7 @@ class Polar:
         with open(folder / f"{self.name}_one" / "polar.csv", newline="") as file:
             rows = [row for row in csv.DictReader(file) if row["CL"]]
         return {f"{float(row['alpha']):g}": {"CL": float(row["CL"]), "CD": float(row["CD"]),
-                                      "steady": row["state"] == "steady"} for row in rows}
+                                               "steady": row["state"] == "steady"} for row in rows}
 
     def read_own_mesh(self, folder):
         """Returns the results on meshes of their own by angle."""
@@ -83,7 +83,7 @@ class Polar:
             if file.exists():
                 result = json.loads(file.read_text())
                 results[f"{alpha:g}"] = {"CL": result["CL"], "CD": result["CD"],
-                                  "steady": result["steady"] or result["steady_in_the_mean"]}
+                                         "steady": result["steady"] or result["steady_in_the_mean"]}
         return results
 
     def flow(self, program, folder):

@@ -25,9 +25,9 @@ namespace lamina {
 
 inline constexpr unsigned max_cell_order = 4;  ///< the highest order of curved cells
 
-/// Where the nodes of a cell are on the straight cell: x_0 = 0 to x_p = 1 along its edges, (x_i, x_j) in a square, and
-/// in a triangle at the barycentric coordinates x_k, x_i and x_j over their sum, where i + j + k = p. Up to order 2 both
-/// are the same.
+/// The rule that places the nodes of a cell of order p on the straight cell. It has p + 1 places x_0 = 0 to x_p = 1
+/// along an edge. Nodes of a square are at (x_i, x_j), and those of a triangle have the barycentric coordinates x_k, x_i and
+/// x_j over their sum, where i + j + k = p. Up to order 2 both rules are the same.
 enum class NodeDistribution : std::uint8_t {
     equidistant,   ///< x_i = i / p: MSH, VTU, CGNS and others
     gauss_lobatto  ///< the points of Gauss and Lobatto's quadrature: MFEM and Nektar++
@@ -35,8 +35,8 @@ enum class NodeDistribution : std::uint8_t {
 
 /// The nodes of a mesh of higher order beside its vertices. Node i of these has the number mesh.points.size() + i. Each
 /// cell is the image of a straight one by Lagrange's polynomials of its order, whose nodes are on the straight cell as
-/// `distribution` says. Those beside its corners are listed edge by edge, from each corner to the next, then those inside,
-/// which are ordered as the nodes of a smaller cell (the order of Gmsh):
+/// `distribution` says. Those beside its corners are listed edge by edge, from each corner to the next, then those
+/// inside, which are ordered as the nodes of a smaller cell (the order of Gmsh):
 ///
 ///        order 2     order 3          order 4                order 3
 ///        2           2                2                      3--9--8--2

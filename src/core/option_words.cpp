@@ -8,8 +8,8 @@ namespace lamina {
 
 namespace {
 
-/// A word of Construct2D, pyHyp, Pointwise, AFLR, Gmsh, SU2, Triangle, or plain English, as plain_word()
-/// gives it, and the option that it means.
+/// A word of Construct2D, pyHyp, Pointwise, AFLR, Gmsh, SU2, Triangle, or plain English, as plain_word() gives it, and
+/// the option that it means.
 struct OptionWord {
     const char *word, *option;
 };

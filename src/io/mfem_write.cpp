@@ -2,10 +2,10 @@
 // grid function. Source: MFEM, "Mesh Formats"; mesh/mesh_readers.cpp, mesh/mesh.cpp (GetElementToEdgeTable) and
 // fem/fe_coll.cpp of MFEM 4.
 //
-// Cells and markers have numbers for names, which a comment tells. The nodes are those of "H1@U", Lagrange's polynomials
-// whose nodes are evenly spaced, or of "H1", whose nodes are those of NodeDistribution::gauss_lobatto. Their places stand vertex by vertex, edge by edge and cell by cell. Edges
-// are numbered as cells have them first, and the nodes of each go from its vertex of the lower number to the other one.
-// Those within cells go row by row.
+// Cells and markers have numbers for names, which a comment tells. The nodes are those of "H1@U", Lagrange's
+// polynomials whose nodes are evenly spaced, or of "H1", whose nodes are those of NodeDistribution::gauss_lobatto.
+// Their places stand vertex by vertex, edge by edge and cell by cell. Edges are numbered as cells have them first, and
+// the nodes of each go from its vertex of the lower number to the other one. Those within cells go row by row.
 #include <fmt/format.h>
 
 #include <algorithm>

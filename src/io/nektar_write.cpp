@@ -2,9 +2,10 @@
 // of cells or edges. Source: Nektar++ user guide, "XML session file, Geometry"; Nektar++ 5, library/SpatialDomains,
 // MeshGraphIOXml.cpp, TriGeom.cpp and QuadGeom.cpp; NodalTriEvenlySpaced.cpp for the order of nodes.
 //
-// A curved cell has a curve of its own and one on each of its edges, both with nodes of the mesh's distribution; others
-// have none, and solvers take them as straight. Nodes of a triangle stand as in CurvedNodes, those within it row by row; all nodes
-// of a quadrilateral stand row by row. Those of an edge go from its first vertex to the second one.
+// A curved cell has a curve of its own and one on each of its edges, both with nodes of the mesh's distribution;
+// others have none, and solvers take them as straight. Nodes of a triangle stand as in CurvedNodes, those within it
+// row by row; all nodes of a quadrilateral stand row by row. Those of an edge go from its first vertex to the second
+// one.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -497,28 +497,6 @@ double straight_scaled(const MeshView& mesh, std::size_t cell) {
     return bound_jacobian(static_cast<unsigned>(corners.size()), 1, corners).scaled();
 }
 
-/// Returns the smallest scaled determinant of the straight cells: that of triangles is 1.
-double smallest_straight_scaled(const MeshView& mesh) {
-    const auto blocks =
-        core::parallel_blocks(mesh.quads.size(), cells_per_block, [&](std::size_t begin, std::size_t end) {
-            double block = 1;
-            for (std::size_t q = begin; q < end; ++q) {
-                double smallest = HUGE_VAL, largest = -HUGE_VAL;
-                for (std::size_t i = 0; i < 4; ++i) {
-                    const auto corner = [&](std::size_t k) {
-                        return mesh.points[mesh.quads[q].v[(i + k) % 4].index()];
-                    };
-                    const double at_corner = cross(corner(1) - corner(0), corner(3) - corner(0));
-                    smallest = std::min(smallest, at_corner);
-                    largest = std::max(largest, at_corner);
-                }
-                block = std::min(block, smallest / largest);
-            }
-            return block;
-        });
-    return blocks.empty() ? 1 : *std::min_element(blocks.begin(), blocks.end());
-}
-
 /// Returns the columns that squeeze a cell to less than half of what it is when straight, ascending. Doubtful cells are
 /// among these.
 std::vector<std::uint32_t> columns_at_fault(const MeshView& mesh, const CellProofs& proofs, const NodePlacer& placer,
@@ -587,7 +565,7 @@ CurvedCells curve_cells(const MeshView& mesh, CellOrder order, std::span<const W
             fmt::format("the cells of order {} are not valid: {}", order.order, curved.check.defects[0].description),
             curved.check.defects[0].at);
     curved.summary = summary_of(mesh, walls, columns, halvings, order);
-    curved.summary.straight_min_scaled_jacobian = smallest_straight_scaled(mesh);
+    curved.summary.straight_min_scaled_jacobian = prove_cells(mesh, {}).min_scaled;
     return curved;
 }
 

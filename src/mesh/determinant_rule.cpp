@@ -99,8 +99,8 @@ unsigned exponent_of(const LatticePlace& place, unsigned p, unsigned corner) {
     return corner == 0 ? p - place.i - place.j : corner == 1 ? place.i : place.j;
 }
 
-/// Returns the Bernstein coefficients, in the order of a grid, of Lagrange's polynomials of Gauss and Lobatto's nodes on
-/// the border of a triangle: on each edge those of a segment.
+/// Returns the Bernstein coefficients, in the order of a grid, of Lagrange's polynomials of Gauss and Lobatto's nodes
+/// on the border of a triangle: on each edge those of a segment.
 PreciseRows lobatto_rows_of_border(unsigned p, const CoefficientGrid& map) {
     const PreciseRows of_curve = lobatto_rows_of_curve(p);
     const std::span<const LatticePlace> lattice = lattice_of_cell(3, p);
@@ -119,8 +119,9 @@ PreciseRows lobatto_rows_of_border(unsigned p, const CoefficientGrid& map) {
 }
 
 /// Returns a Bernstein polynomial at a place in barycentric coordinates.
-Precise bernstein_at(const LatticePlace& coefficient, unsigned p, const std::array<Precise, 3>& place) {
-    Precise value = factorial(p);
+template <class Number>
+Number bernstein_at(const LatticePlace& coefficient, unsigned p, const std::array<Number, 3>& place) {
+    Number value = factorial(p);
     for (unsigned corner = 0; corner < 3; ++corner)
         for (unsigned k = 1; k <= exponent_of(coefficient, p, corner); ++k) value *= place[corner] / k;
     return value;
@@ -299,8 +300,7 @@ std::vector<double> lagrange_in_triangle(unsigned order, NodeDistribution distri
     const CoefficientGrid map{3, order, order};
     std::vector<double> values(rule.nodes);
     map.for_each([&](unsigned i, unsigned j) {
-        const double bernstein =
-            map.weight(i, j) * std::pow(s, i) * std::pow(t, j) * std::pow(1 - s - t, order - i - j) / rule.curve.factor;
+        const double bernstein = bernstein_at<double>({i, j}, order, {1 - s - t, s, t}) / rule.curve.factor;
         const std::size_t c = map.at(i, j);
         for (std::size_t k = rule.first_factor[c]; k < rule.first_factor[c + 1]; ++k)
             values[rule.to_bernstein[k].node] += bernstein * rule.to_bernstein[k].value;

@@ -53,8 +53,7 @@ struct ProductTerm {
 /// How the nodes of a curve of order p become a factor times its Bernstein coefficients, and what weighs coefficients.
 struct CurveRule {
     double largest_row = 0;  ///< of the factors below
-    double factor = 1;       ///< (p!)^2, which makes them
-                             ///< whole, or 1
+    double factor = 1;       ///< (p!)^2, which makes them whole where nodes are evenly spaced, else 1
     std::array<std::array<double, max_cell_order + 1>, max_cell_order + 1> to_bernstein{};  ///< [coefficient][node]
     std::array<double, max_cell_order + 1> weights{};                                       ///< of degree p
     std::array<double, max_cell_order> weights_of_derivative{};                             ///< of degree p - 1
@@ -69,7 +68,8 @@ struct DeterminantRule {
     std::vector<NodeFactor> to_bernstein;   ///< coefficient by coefficient of the map
     std::vector<std::size_t> first_factor;  ///< of each coefficient of the map, then the end
     double largest_row = 0;                 ///< largest sum of the sizes of the factors of a coefficient
-    /// What the errors of the factors of a coefficient amount to at most, over largest_row: 0 for whole numbers.
+    /// The largest sum of the rounding errors of the factors of a coefficient, over largest_row; 0 where they are
+    /// whole.
     double error_of_factors = 0;
     NodeDistribution distribution = NodeDistribution::equidistant;
     std::vector<Difference> along, across;

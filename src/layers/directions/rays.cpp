@@ -202,16 +202,15 @@ double largest_bend(Point from, Point to, std::size_t parts, const PlaceOnWall& 
 /// layers' height: cells of higher order follow it, and where the border divides their tops, the bend fades out below.
 std::size_t parts_of_curve(Point from, Point to, const Refinement& refinement) {
     if (!refinement.place || refinement.height <= 0) return 1;
-    std::size_t parts = 1;
-    constexpr int most_rounds = 8;  // coarse noses take three
-    for (int round = 0; round < most_rounds; ++round) {
+    // Parts of an arc bend by the square of their share of it. At a nose one part bends more than the others, so that
+    // more are needed than one look says. On smooth curves parts * sqrt(bend) is bounded: this ends.
+    const auto needed = [&](std::size_t parts) {
         const double bend = largest_bend(from, to, parts, refinement.place) / (max_bend_of_walls * refinement.height);
-        // Parts of an arc bend by the square of their share of it. At a nose one part bends more than the others.
-        const auto needed =
-            static_cast<std::size_t>(std::ceil(static_cast<double>(parts) * std::sqrt(bend) - part_slack));
-        if (needed <= parts) break;
-        parts = needed;
-    }
+        return static_cast<std::size_t>(
+            std::max(1.0, std::ceil(static_cast<double>(parts) * std::sqrt(bend) - part_slack)));
+    };
+    std::size_t parts = 1;
+    for (std::size_t next = needed(parts); next > parts; next = needed(parts)) parts = next;
     return parts;
 }
 
