@@ -199,10 +199,12 @@ private:
         lists_.cells.add(number(element, "ID"));
         NektarCell& cell = lists_.cells_of_edges.emplace_back();
         cell.corners = element.name == "T" ? 3 : 4;
-        if (cell.corners == 4)
+        if (cell.corners == 4) {
             cell.edges = whole_numbers<4>(text);
-        else
-            std::ranges::copy(whole_numbers<3>(text), cell.edges.begin());
+        } else {
+            const auto edges = whole_numbers<3>(text);
+            std::copy(edges.begin(), edges.end(), cell.edges.begin());
+        }
     }
     void add_curve(const VtkTag& element, std::string_view text) {
         const bool is_edge = element.name == "E";
