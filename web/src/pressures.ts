@@ -123,7 +123,8 @@ export class PressureChart {
     const flow = this.#flow,
       layout = this.#layout;
     if (!flow || !layout) {
-      this.#told.textContent = "No flow decided on this mesh: it needs a Reynolds number, and a flow that can be solved.";
+      this.#told.textContent =
+        "No flow decided on this mesh: it needs a Reynolds number, and a flow that can be solved.";
       return;
     }
     const dot = this.#dot!;
