@@ -145,7 +145,9 @@ export class PressureChart {
 
   #summary({alpha, mach, lift, compressible}: FlowFacts): string {
     const kind = compressible ? "Euler equations" : "Potential flow";
-    return `${kind} at ${numberText(alpha)} degrees${mach === null ? "" : `, Mach ${numberText(mach)}`}: lift coefficient ${numberText(lift, 4)}`;
+    const at = `${numberText(alpha)} degrees${mach === null ? "" : `, Mach ${numberText(mach)}`}`;
+    const rounded = Math.round(lift * 1e5) / 1e5 + 0; // what is left of sums is no lift, and -0 + 0 is 0
+    return `${kind} at ${at}: lift coefficient ${numberText(rounded, 4)}`;
   }
 
   #legend(): HTMLElement {
