@@ -50,10 +50,9 @@ class Lamina(ConanFile):
             self.requires("zlib/[>=1.2.11]")
         if self.options.get_safe("cgns"):
             self.requires("cgns/[>=3.4]")
-        if self.options.get_safe("tools"):
-            self.requires("cli11/[>=2.1]")
-            self.requires("nlohmann_json/[>=3.11]")
-            self.requires("tomlplusplus/[>=3.3]")
+        if self.options.get_safe("tools"):  # headers that the program is compiled with, and no library
+            for headers in "cli11/[>=2.1]", "nlohmann_json/[>=3.11]", "tomlplusplus/[>=3.3]":
+                self.requires(headers, visible=False)
 
     def build_requirements(self):
         self.tool_requires("cmake/[>=3.25]")
