@@ -138,11 +138,12 @@ def faces_of_quads(path):
     if not quads:
         return {}
     quads = np.array(quads)
-    corners = points[quads]
+    origins = points[quads[:, 0]]  # areas of cells 1e-6 long at coordinates of 1 would be those of rounding
+    corners = points[quads] - origins[:, None]
     after = np.roll(corners, -1, axis=1)
     doubled = corners[..., 0] * after[..., 1] - after[..., 0] * corners[..., 1]
     areas = doubled.sum(axis=1)
-    centres = ((corners + after) * doubled[..., None]).sum(axis=1) / (3 * areas[:, None])
+    centres = origins + ((corners + after) * doubled[..., None]).sum(axis=1) / (3 * areas[:, None])
     edges = np.sort(np.stack([quads, np.roll(quads, -1, axis=1)], axis=-1).reshape(-1, 2), axis=1)
     owner = np.repeat(np.arange(len(quads)), 4)
     order = np.lexsort((edges[:, 1], edges[:, 0]))
