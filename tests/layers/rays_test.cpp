@@ -116,7 +116,11 @@ TEST(Rays, StayWellInsideTheHalfPlanesOfBothEdges) {
             const std::vector<RayLine> rays = rays_of(outline, options);
             for (std::size_t i = 0; i < rays.size(); ++i) {
                 const RayLine &ray = rays[i], &next = rays[(i + 1) % rays.size()];
-                EXPECT_LE(std::abs(core::angle_between(ray.direction, next.direction)), core::radians(4 + 1e-6));
+                const double angle = core::angle_between(ray.direction, next.direction);
+                const bool is_short = distance(ray.origin, next.origin) < 4 * test::first_height(options);
+                if (angle > 0 || !is_short) {
+                    EXPECT_LE(std::abs(angle), core::radians(4 + 1e-6));
+                }
                 if (ray.origin == next.origin) continue;
                 const Point normal = -perpendicular(unit(next.origin - ray.origin));
                 EXPECT_GT(std::min(dot(normal, ray.direction), dot(normal, next.direction)), 0.2);
@@ -219,6 +223,28 @@ TEST(Rays, LeaveBluntCornersOfSmoothOutlinesInFans) {
     };
     EXPECT_EQ(origins(layers::OutlineKind::smooth), hexagon.size());
     EXPECT_GT(origins(layers::OutlineKind::given), hexagon.size());
+}
+
+/// Rays out of a concave corner converge with those beside it. Rays that are added between keep two first heights from
+/// each other, lest the corner's ray crosses the next one below the top of its first layer.
+TEST(Rays, AreNoNearerToEachOtherThanTwoFirstHeightsBesideConcaveCorners) {
+    constexpr double edge = 1e-4;
+    const Outline corner =
+        shapes::refined(shapes::polygon({{0, 0}, {0.1, 0}, {0.1, 0.1}, {-0.1, 0.1}, {-0.1, -0.1}, {0, -0.1}}), 1000);
+    for (const double first_height : {1e-6, 1e-5, 3e-5, 1e-4}) {
+        SCOPED_TRACE(first_height);
+        const LayerOptions options = test::layers_of(first_height, 1.2, 5);
+        const std::vector<RayLine> rays = layers::make_rays(
+            layers::outline_with_wake(corner), layers::OutlineKind::smooth, options, test::growth_of(options));
+        std::size_t added = 0;
+        for (std::size_t i = 0; i + 1 < rays.size(); ++i) {
+            const double apart = distance(rays[i].origin, rays[i + 1].origin);
+            if (apart == 0 || apart > 0.99 * edge) continue;
+            ++added;
+            EXPECT_GT(apart, 1.999 * first_height) << rays[i].origin.x << " " << rays[i].origin.y;
+        }
+        EXPECT_EQ(added > 0, 4 * first_height < edge);
+    }
 }
 
 /// Rows over both walls of a cove corner keep their heights above the walls. Heights along rays are larger the more
