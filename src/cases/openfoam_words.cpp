@@ -132,8 +132,9 @@ void add_medium(const CaseFlow& flow, Words& words) {
         condition(flow.wall_functions ? "compressible::alphatWallFunction" : "fixedValue", "uniform 0");
 }
 
-/// Adds how the solver steps towards a steady state. In supersonic flow that is PISO (Issa 1986), whose three corrections
-/// in each step make relaxation needless. Detached shocks swing or diverge with fewer, and with larger Courant numbers.
+/// Adds how the solver steps towards a steady state. In supersonic flow that is PISO (Issa 1986), whose three
+/// corrections in each step make relaxation needless. Detached shocks swing or diverge with fewer, and with larger
+/// Courant numbers.
 void add_steps(const CaseFlow& flow, Words& words) {
     const bool local = is_supersonic(flow);
     words["BOUNDED"] = local ? "" : "bounded ";

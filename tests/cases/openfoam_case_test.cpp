@@ -180,8 +180,8 @@ TEST(OpenFoamCase, AGasHasTheMachNumberAndDensityOneUpstream) {
     EXPECT_THROW(openfoam_files(still, {.compressible = true}), OptionError);
 }
 
-/// From Mach 1 on the run starts with a gas, and each cell has a step of its own, which PISO takes. The far field carries
-/// no vortex.
+/// From Mach 1 on the run starts with a gas, and each cell has a step of its own, which PISO takes. The far field
+/// carries no vortex.
 TEST(OpenFoamCase, SupersonicFlowIsSolvedInLocalSteps) {
     SolverConditions conditions = some_conditions();
     for (const double mach : {0.9, 1.0, 2.0}) {

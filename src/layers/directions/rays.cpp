@@ -217,9 +217,9 @@ std::size_t parts_of_curve(Point from, Point to, const Refinement& refinement) {
 
 /// Adds the rays between two others that differ by more than the largest angle, or whose wall bends, evenly spaced on
 /// the wall. Corners of jagged outlines are so many, and their edges so short, that neighbouring edges would differ by
-/// whole factors (docs/layer.md). Rays are added there only where a column opens widely, none where rays converge. On other
-/// outlines no rays are added for rays that converge nearer to each other than two first heights: beside a concave
-/// corner of 90 degrees the corner's ray would cross the next one below the top of its first layer.
+/// whole factors (docs/layer.md). Rays are added there only where a column opens widely, none where rays converge. On
+/// other outlines no rays are added for rays that converge nearer to each other than two first heights: beside a
+/// concave corner of 90 degrees the corner's ray would cross the next one below the top of its first layer.
 void add_refining_rays(const RayLine& first, const RayLine& last, const Refinement& refinement,
                        std::vector<RayLine>& rays) {
     const Point from = first.origin, to = last.origin, normal = -perpendicular(unit(to - from));
