@@ -153,17 +153,22 @@ private:
         const std::vector<double> of_law = law.heights(growth.first_height, ray.growth, ray.layers);
         const double rounding = 4e-16 * (std::abs(origin.x) + std::abs(origin.y));
         const bool is_whole = growth.layers && std::isinf(ray.height_limit);
-        const Point first = at(ray.vertex(1));
-        double height = 0, spacing = 0;  // above the first layer, which is shifted at some corners
+        const Point first = at(ray.vertex(1)) - origin;
+        // Rays bend to one side, by less from layer to layer.
+        const double side = cross(first, ray.direction) > 0 ? -1 : 1;
+        double height = 0, spacing = 0, shift = 0, slope = HUGE_VAL;
         for (std::uint32_t n = 1; n <= ray.layers; ++n) {
             const Point p = at(ray.vertex(n));
             if (layer_.layer_of_point[ray.vertex(n).index()] != n) report("layer_of_point is wrong", p);
-            if (n == 1) continue;
-            if (!is_on_line(p - first, ray.direction, rounding))
-                report(fmt::format("layer {} is not on its ray", n), p);
-            const double height_below = std::exchange(height, dot(p - first, ray.direction));
+            const auto [height_here, shift_here] = height_and_shift(p - origin, first, ray.direction);
+            const double height_below = std::exchange(height, height_here);
             const double spacing_below = std::exchange(spacing, height - height_below);
-            if (n == 2) continue;
+            const double rise = side * (shift_here - std::exchange(shift, shift_here)) / spacing;
+            const double tolerance = 1e-11 + 2 * rounding / spacing;
+            if (!(rise >= -tolerance && rise <= slope + tolerance))
+                report(fmt::format("layer {} is not on its ray", n), p);
+            slope = rise;
+            if (n <= 2) continue;  // all layers of a sharp corner's ray lie higher by one distance
             const double growth_of_law = (of_law[n] - of_law[n - 1]) / (of_law[n - 1] - of_law[n - 2]);
             const double change = spacing / spacing_below / growth_of_law;
             const double slack = 1e-9 + 8 * rounding / spacing_below;
@@ -171,12 +176,16 @@ private:
             if (!(change >= least - slack && change <= most + slack))
                 report(fmt::format("the spacing of layer {} grows {} times as the law says", n, change), p);
         }
-        if (height > ray.height_limit * (1 + 1e-12) + rounding) report("ray is longer than its limit", origin);
+        const double above_first = height - dot(first, first) / dot(ray.direction, first);
+        if (above_first > ray.height_limit * (1 + 1e-12) + rounding) report("ray is longer than its limit", origin);
     }
 
-    /// Returns whether a vector has this direction but for rounding.
-    static bool is_on_line(Point vector, Point direction, double rounding) {
-        return length(vector - dot(vector, direction) * direction) <= 1e-11 * length(vector) + rounding;
+    /// Splits a vector from a ray's origin into its height along the ray and a part at right angles to the way to the
+    /// first layer, by which the ray is shifted there.
+    static std::pair<double, double> height_and_shift(Point vector, Point first, Point direction) {
+        const Point across = perpendicular(first);
+        const double height = dot(vector, first) / dot(direction, first);
+        return {height, dot(vector - height * direction, across) / length(first)};
     }
 
     void check_cells() {

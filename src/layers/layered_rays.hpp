@@ -71,7 +71,7 @@ struct LayeredRays {
     /// Returns the point at the top of a layer; the ray's origin for layer 0.
     Point point(std::size_t ray, std::uint32_t layer) const {
         const RayLine& line = set.lines[ray];
-        return layer == 0 ? line.origin : line.origin + (heights.of(ray)[layer] * line.direction + line.shift);
+        return layer == 0 ? line.origin : line.at(heights.of(ray)[layer]);
     }
     /// Returns the height of the last layer on a ray; 0 where it has none.
     double last_spacing(std::size_t ray) const {

@@ -34,15 +34,20 @@ struct RayLine {
     /// Height along the ray over the height above the wall's edges beside it, which the growth law gives: 1 for a ray
     /// along their normals, 1.41 for one out of a cove corner of 90 degrees; at most max_slant.
     double slant = 1;
-    /// All points of its layers lie beside the line by this vector, so that the first layer has its height above both
-    /// edges at a corner out of which the ray leans; zero elsewhere (docs/layer.md).
+    /// The ray bends away from its line, by half of this vector at the height half_shift and by all of it far from the
+    /// wall, so that the first layer has its height above both edges at a corner out of which the ray leans; zero
+    /// elsewhere (docs/layer.md).
     Point shift{};
+    double half_shift = 0;  ///< 0 where all layers are shifted by the same vector
     /// The wall's vertices between this ray and the next one, in their order: a sharp concave corner and those so near
     /// to it that no first layer fits between its sides. They have no rays. Empty elsewhere (docs/layer.md).
     std::vector<Point> corner_after{};
     bool on_symmetry = false;       ///< whether it lies in the line of symmetry, and so do all its points, exactly
     double line_room = 0;           ///< LineFoot::room where it runs along an inner line; else 0
     double most_height = HUGE_VAL;  ///< OuterWall::thickest on outer walls
+
+    /// Returns its point at a height above 0 along its direction.
+    Point at(double height) const { return origin + (height * direction + height / (height + half_shift) * shift); }
 };
 
 /// A stretch makes a column of layers end at a given height, with a given last spacing. Layers up to `above` keep their

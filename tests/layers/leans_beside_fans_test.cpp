@@ -145,7 +145,7 @@ TEST(LeansBesideFans, KeepsFirstHeightsInConcaveWalls) {
             for (std::size_t i = 1; i + 1 < rays.size(); ++i) {
                 const RayLine &before = rays[i - 1], &ray = rays[i], &next = rays[i + 1];
                 if (ray.origin.x < 0 || ray.origin.y < 0 || length(ray.origin) > 0.4) continue;
-                const Point top = layers::first_height_along(ray, growth.first_height) * ray.direction + ray.shift;
+                const Point top = ray.at(layers::first_height_along(ray, growth.first_height)) - ray.origin;
                 for (const Point side : {ray.origin - before.origin, next.origin - ray.origin})
                     EXPECT_NEAR(dot(-perpendicular(unit(side)), top) / growth.first_height, 1, 0.0095)
                         << ray.origin.x << " " << ray.origin.y;

@@ -576,8 +576,8 @@ TEST(FlowGuidance, CornersOfBluffBodiesDoNotCountAsSuctionPeaks) {
                 least = edges_of_sides(sides,
                                        generate_mesh(shapes::geometry({sides}), options).geometry.elements[0].points);
             for (std::size_t k = 0; k < sides.size(); ++k) {
-                // The first height differs, and so do the fans at the corners.
-                EXPECT_GE(static_cast<double>(edges[k]), 0.9 * static_cast<double>(least[k])) << k;
+                // The first height differs, and so do the leans and the fans at the corners.
+                EXPECT_GE(static_cast<double>(edges[k]), 0.6 * static_cast<double>(least[k])) << k;
                 EXPECT_LE(static_cast<double>(edges[k]), 2.5 * static_cast<double>(least[k])) << k;
             }
             for (std::size_t i = 0; i < outline.size(); ++i)

@@ -227,10 +227,9 @@ private:
         layer_.layer_of_point.resize(total);
         core::parallel_for(set_.lines.size(), 4096, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
-                const RayLine& line = set_.lines[i];
                 const std::span<const double> heights = rays_.heights.of(i);
                 for (std::uint32_t n = 1; n <= counts[i]; ++n) {
-                    layer_.points[first_point_[i] + n - 1] = line.origin + (heights[n] * line.direction + line.shift);
+                    layer_.points[first_point_[i] + n - 1] = set_.lines[i].at(heights[n]);
                     layer_.layer_of_point[first_point_[i] + n - 1] = static_cast<std::uint16_t>(n);
                 }
             }

@@ -136,32 +136,42 @@ void leave_out_sharp_corners(double first_height, std::vector<RayVertex>& outlin
 
 // The ray of a corner that leans, so that it meets its neighbours higher up (leans.hpp), is too high
 // above one of the edges beside it and too low above the other. It leaves the corner along the bisector instead, up to
-// the top of the first layer, and leans from there on (docs/layer.md):
+// the top of the first layer, and bends into its direction above it (docs/layer.md):
 //
 //     \      /           \      /
 //      \    /             \    /      o: top of the first layer. Left: on a ray that leans to the right, too low above
 //       \  o               \  o       the wall on the right. Right: as high above that wall as above the other one.
 //        \/______           \|______
 //
-// Rows above are shifted as much, a part of the height of the first layer.
+// The ray is a hyperbola: at the height h it lies beside its line by h / (h + b) of a shift. Where the first layer, of
+// the height f, is to lie beside it by a vector s, and the shift is k s, b is (k - 1) f. The larger k is, the smaller
+// are the angles between a layer and the next one; all layers are shifted by s alone with k = 1.
 
 namespace {
 
-/// Returns the shift of the one ray of a vertex; none where first heights are right without one, and where the wall
+/// Shifts the one ray of a vertex, but not where first heights are right without a shift, and where the wall
 /// hardly turns. along: first height along the ray; height: above the edges.
-Point shift_at_corner(const RayLine& before, const RayLine& ray, const RayLine& after, double along, double height) {
+void shift_at_corner(const RayLine& before, RayLine& ray, const RayLine& after, double along, double height) {
+    constexpr double negligible = 1e-6;  // radians: leans are multiples of far larger steps
+    ray.shift = {};
+    ray.half_shift = 0;
     const WallNeighbours vertices = wall_neighbours(before, ray, after);
     const Point edge_before = ray.origin - vertices.before, edge_after = vertices.after - ray.origin;
     const Point a = -perpendicular(unit(edge_before)), b = -perpendicular(unit(edge_after));
     const auto is_kept = [&](Point normal) {
         return std::abs(dot(normal, ray.direction) * along - height) <= kept_difference * height;
     };
-    if (is_kept(a) && is_kept(b)) return {};
-    if (std::abs(core::angle_between(a, b)) <= core::radians(max_smooth_turning_deg)) return {};
-    // Both edges, moved outwards by the height, meet there.
-    const Point shift = height / (1 + dot(a, b)) * (a + b) - along * ray.direction;
+    if (is_kept(a) && is_kept(b)) return;
+    if (std::abs(core::angle_between(a, b)) <= core::radians(max_smooth_turning_deg)) return;
+    // Both edges, moved outwards by the height, meet at the top of the first layer.
+    const Point top = height / (1 + dot(a, b)) * (a + b), shift = top - along * ray.direction;
     const double shorter = std::min(length(edge_before), length(edge_after));
-    return length(shift) <= most_shift * shorter ? shift : Point{};
+    if (!(length(shift) <= most_shift * shorter)) return;
+    // A ray in the bisector, too high above both edges or too low, has nowhere to bend to.
+    const bool leans = std::abs(cross(top, ray.direction)) > negligible * length(top);
+    const double times = leans ? std::clamp(most_bend * shorter / length(shift), 1.0, most_shift_over_first) : 1;
+    ray.shift = times * shift;
+    ray.half_shift = (times - 1) * along;
 }
 
 /// Returns the largest lean of the one ray of a vertex, in radians, at which it is higher above one of the edges at its
@@ -194,7 +204,7 @@ void shift_rays_of_corners(const LayerGrowth& growth, RaySet& set) {
         if (ray.place != RayPlace::wall) continue;
         if (before.origin == ray.origin || after.origin == ray.origin) continue;  // a ray of a fan
         const double above = ray.opening * growth.first_height_on(element), along = ray.slant * above;
-        ray.shift = shift_at_corner(before, ray, after, along, above);
+        shift_at_corner(before, ray, after, along, above);
         if (ray.on_symmetry) ray.shift.y = 0;
     }
 }

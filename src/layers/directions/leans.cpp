@@ -27,8 +27,8 @@ struct Derivatives {
 /// Half of the function that is minimised.
 class Chain {
 public:
-    Chain(std::span<const ColumnLack> lacks, std::span<const LeanBounds> bounds, double weight, double stiffness)
-        : lacks_(lacks), bounds_(bounds), weight_(weight), stiffness_(stiffness) {}
+    Chain(std::span<const ColumnLack> lacks, std::span<const LeanBounds> bounds, double stiffness)
+        : lacks_(lacks), bounds_(bounds), stiffness_(stiffness) {}
 
     std::size_t size() const { return lacks_.size(); }
     double clamped(std::size_t i, double lean) const { return std::clamp(lean, bounds_[i].least, bounds_[i].most); }
@@ -37,8 +37,8 @@ public:
         double sum = 0;
         for (std::size_t k = 0; k < size(); ++k) {
             const ColumnLack left = lack_left(leans, k);
-            sum += 0.5 * (weight_ * positive_square(left.wanted) + positive_square(left.least) +
-                          stiffness_ * leans[k] * leans[k]);
+            sum +=
+                0.5 * (positive_square(left.wanted) + positive_square(left.least) + stiffness_ * leans[k] * leans[k]);
         }
         return sum;
     }
@@ -50,8 +50,8 @@ public:
         }
         for (std::size_t k = 0; k < size(); ++k) {
             const ColumnLack left = lack_left(leans, k);
-            const double pull = weight_ * std::max(left.wanted, 0.0) + std::max(left.least, 0.0);
-            const double curvature = (left.wanted > 0 ? weight_ : 0) + (left.least > 0 ? 1 : 0);
+            const double pull = std::max(left.wanted, 0.0) + std::max(left.least, 0.0);
+            const double curvature = (left.wanted > 0 ? 1 : 0) + (left.least > 0 ? 1 : 0);
             d.conditions[k] = static_cast<char>((left.wanted > 0 ? 1 : 0) + (left.least > 0 ? 2 : 0));
             d.gradient[k] += pull;
             d.gradient[next(k)] -= pull;
@@ -79,7 +79,7 @@ public:
 private:
     std::span<const ColumnLack> lacks_;
     std::span<const LeanBounds> bounds_;
-    double weight_, stiffness_;
+    double stiffness_;
 
     std::size_t next(std::size_t k) const { return k + 1 < size() ? k + 1 : 0; }
     ColumnLack lack_left(std::span<const double> leans, std::size_t k) const {
@@ -130,14 +130,13 @@ std::vector<double> solve_cyclic(const Derivatives& d) {
 
 }  // namespace
 
-ChainLeans minimise_leans(std::span<const ColumnLack> lacks, std::span<const LeanBounds> bounds, double weight,
-                          double stiffness) {
-    assert(lacks.size() >= 3 && lacks.size() == bounds.size() && weight > 0 && stiffness > 0);
+ChainLeans minimise_leans(std::span<const ColumnLack> lacks, std::span<const LeanBounds> bounds, double stiffness) {
+    assert(lacks.size() >= 3 && lacks.size() == bounds.size() && stiffness > 0);
     constexpr std::size_t max_steps = 200;    // each lowers the function; outlines of thousands of corners take 20
     constexpr double sufficient = 1e-4;       // share of the decrease that the gradient promises (Armijo)
     constexpr double shortest = 1e-9;         // of a step
     constexpr double least_residual = 1e-14;  // of leans, and of the function
-    const Chain chain(lacks, bounds, weight, stiffness);
+    const Chain chain(lacks, bounds, stiffness);
     const std::size_t n = chain.size();
     ChainLeans result{std::vector<double>(n), 0};
     for (std::size_t i = 0; i < n; ++i) result.leans[i] = chain.clamped(i, 0);
@@ -251,15 +250,14 @@ void lean_rays(std::span<const RayVertex> outline, std::span<const double> heigh
     constexpr double lean_step = 0x1p-12;  // radians: leans that differ by rounding errors become equal
     // Columns need be no wider than where corners follow each other, however far rays may diverge.
     const double angle = std::min(most_opening(kind, options), core::radians(max_jagged_ray_angle_deg));
-    const OutlineRules& rules = rules_of(kind);
     const bool isotropic = !growth.layers && growth.least_heights.empty();
-    const double wanted = (growth.layers ? rules.wanted_width_of_given_layers : rules.wanted_width) * angle,
-                 fan_angle = std::min(core::radians(options.max_ray_angle_deg), angle);
+    const double fan_angle = std::min(core::radians(options.max_ray_angle_deg), angle);
     // On walls of twice as many edges and rays at half the angle a lack is spread over twice as many columns.
     const double stiffness = lean_stiffness * fan_angle * fan_angle;
+    const double wanted = rules_of(kind).widens_columns ? wanted_width_in_openings * angle : -HUGE_VAL;
     const Leaners leaners =
-        leaners_of(outline, heights, isotropic ? rules.measured_fronts : 1, wanted, growth.first_height, vertices);
-    const ChainLeans solution = minimise_leans(leaners.lacks, leaners.bounds, rules.width_weight, stiffness);
+        leaners_of(outline, heights, isotropic ? fronts_of_isotropy : 1, wanted, growth.first_height, vertices);
+    const ChainLeans solution = minimise_leans(leaners.lacks, leaners.bounds, stiffness);
     for (std::size_t k = 0; k < leaners.leans.size(); ++k)
         *leaners.leans[k] = core::rounded_to_multiple(solution.leans[k], lean_step);
     for (WallVertex& vertex : vertices)

@@ -45,18 +45,17 @@ struct ColumnLack {
 
 /// Returns the leans t within their bounds that minimise
 ///
-///     sum weight (wanted - o)_+^2 + (least - o)_+^2 over columns  +  stiffness sum t^2 over rays,
+///     sum (wanted - o)_+^2 + (least - o)_+^2 over columns  +  stiffness sum t^2 over rays,
 ///
 /// where o = t_after - t_before is what the rays of a column diverge by. Column k lies between rays k and k + 1; the
 /// first ray follows the last one. The function is strictly convex: there is one minimum, and mirrored input has
 /// mirrored leans but for rounding. What is wanted is spread over about 1 / sqrt(stiffness) columns. Each step costs
 /// O(n), since the Hessian is a cyclic tridiagonal M-matrix; a step that changes neither the terms that count nor the
 /// leans that are held ends the search. Preconditions: at least three rays, one column and one pair of bounds for each,
-/// least <= most, weight > 0, stiffness > 0.
+/// least <= most, stiffness > 0.
 /// Source: D. P. Bertsekas, Projected Newton methods for optimization problems with simple constraints, SIAM J. Control
 /// Optim. 20 (1982), 221-246.
-ChainLeans minimise_leans(std::span<const ColumnLack> lacks, std::span<const LeanBounds> bounds, double weight,
-                          double stiffness);
+ChainLeans minimise_leans(std::span<const ColumnLack> lacks, std::span<const LeanBounds> bounds, double stiffness);
 
 /// A line that ends at a vertex.
 struct LineAtVertex {

@@ -91,8 +91,7 @@ private:
 
     /// Returns whether all cells between two neighbouring rays are positively oriented. They are where, in each layer,
     /// both rays cross the chord between their two points outwards. The test is linear in the height, so the wall and
-    /// the highest layer that the two have in common stand for all layers. Rays that are shifted are straight from the
-    /// first layer on.
+    /// the highest layer that the two have in common stand for all layers. Rays that are shifted are bent.
     bool cell_is_sound(std::size_t i, std::size_t j) const {
         const std::uint32_t common = std::min(counts_[i], counts_[j]);
         const Point a = origin(i), b = origin(j);
@@ -101,13 +100,14 @@ private:
             return orient2d(a, counts_[i] > 0 ? rays_.tip(i) : rays_.tip(j), b) > 0;
         }
         if (set_.lines[i].shift == Point{} && set_.lines[j].shift == Point{}) return is_sound_between(i, j, 0, common);
-        if (!is_sound_between(i, j, 0, 1)) return false;
-        if (common > 1) return is_sound_between(i, j, 1, common);
+        for (std::uint32_t n = 0; n < common; ++n)
+            if (!is_sound_between(i, j, n, n + 1)) return false;
         if (counts_[i] == counts_[j]) return true;
-        return orient2d(rays_.point(i, 1), counts_[i] > 1 ? rays_.tip(i) : rays_.tip(j), rays_.point(j, 1)) > 0;
+        const Point left = rays_.point(i, common), right = rays_.point(j, common);
+        return orient2d(left, counts_[i] > common ? rays_.tip(i) : rays_.tip(j), right) > 0;
     }
 
-    /// Returns the same of the cells between two layers, `low` and `high`, above which both rays are straight.
+    /// Returns the same of the cells between two layers, `low` and `high`, between which both rays are straight.
     bool is_sound_between(std::size_t i, std::size_t j, std::uint32_t low, std::uint32_t high) const {
         const Point a = rays_.point(i, low), a_top = rays_.point(i, high);
         const Point b = rays_.point(j, low), b_top = rays_.point(j, high);
