@@ -59,8 +59,8 @@ struct LayerOptions {
     GrowthLaw growth_law = GrowthLaw::geometric;  ///< the law by which heights grow
     std::optional<std::uint32_t> layers{};  ///< on each ray; empty: up to isotropy, where cells are as high as wide
     std::optional<Length> thickness{};  ///< height above the wall beyond which no layer goes; T of the exponential law
-    /// Between neighbouring rays; up to 20 degrees on walls as jagged as iced ones. Rays that converge may differ by
-    /// more where a ray between them would be nearer to either than two first heights.
+    /// By which neighbouring rays diverge at most; up to 20 degrees on walls as jagged as iced ones. Rays out of
+    /// concave corners converge by what these turn.
     double max_ray_angle_deg = 5;
     CornerRays corners = CornerRays::fan;  ///< the rays at sharp convex corners
     bool equal_fans = false;  ///< whether each fan has the rays of half a turn, and every other vertex one ray

@@ -106,7 +106,7 @@ class MeshOptions(TypedDict, total=False):
     thickness: float | str | None
     # isotropic triangles up to the wall
     no_layers: bool | None
-    # largest angle between neighbouring rays, in degrees; >= 0.01 and <= 90 [5]
+    # largest angle by which neighbouring rays diverge, in degrees; >= 0.01 and <= 90 [5]
     max_ray_angle: float | None
     # at sharp convex corners: a fan of rays, or refining rays beside the vertex [fan]
     corners: Literal["fan", "refine"] | None

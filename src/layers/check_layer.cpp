@@ -83,17 +83,17 @@ private:
         return places;
     }
 
-    /// Returns whether the angle from a ray of an element to the next one is small enough.
+    /// Returns whether a ray of an element and the next one diverge by this angle at most, or converge.
     bool is_ray_angle_allowed(double angle, std::size_t element) const {
         constexpr double rounding = 1e-9;
         if (options_.equal_fans) return true;
         const bool jagged = element < layer_.jagged.size() && layer_.jagged[element];
-        if (!jagged) return std::abs(angle) <= core::radians(options_.max_ray_angle_deg) + rounding;
-        return angle <= core::radians(std::max(options_.max_ray_angle_deg, max_jagged_ray_angle_deg)) + rounding;
+        const double allowed_deg = std::max(options_.max_ray_angle_deg, jagged ? max_jagged_ray_angle_deg : 0);
+        return angle <= core::radians(allowed_deg) + rounding;
     }
 
-    /// Checks that rays stand in the order of the wall, and that neighbours differ by one layer and the largest ray
-    /// angle at most, by more where they converge and stand near to each other.
+    /// Checks that rays stand in the order of the wall, and that neighbours differ by one layer and diverge by the
+    /// largest ray angle at most.
     void check_rays() {
         for (std::size_t e = 0; e < layer_.rays.size(); ++e) {
             const std::vector<Ray>& rays = layer_.rays[e];
@@ -106,21 +106,14 @@ private:
                 if (ray.place == RayPlace::wall && !closes)
                     while (on_wall < layer_.walls[e].size() && layer_.walls[e][on_wall] != ray.origin) ++on_wall;
                 if (on_wall == layer_.walls[e].size()) report("rays are not in the order of the wall", at(ray.origin));
-                check_against_next(ray, next, e, growth.first_height);
+                check_against_next(ray, next, e);
                 check_heights(ray, growth);
             }
         }
     }
 
-    /// Returns whether rays that converge stand too near to each other for one between: parts of edges are at least two
-    /// first heights long.
-    bool is_indivisible(const Ray& ray, const Ray& next, double first_height) const {
-        const double first = ray.layers > 0 ? distance(at(ray.origin), at(ray.vertex(1))) : 0;
-        return distance(at(ray.origin), at(next.origin)) < 4 * std::max(first, first_height);
-    }
-
     /// Checks a ray of an element, and that the next one is like it.
-    void check_against_next(const Ray& ray, const Ray& next, std::size_t element, double first_height) {
+    void check_against_next(const Ray& ray, const Ray& next, std::size_t element) {
         const Point origin = at(ray.origin);
         if (std::abs(length(ray.direction) - 1) > 1e-12) report("direction is no unit vector", origin);
         if (ray.layers > ray.requested) report("ray has more layers than requested", origin);
@@ -128,8 +121,7 @@ private:
             report("neighbouring rays differ by more than one layer", origin);
         const double angle = core::angle_between(ray.direction, next.direction);
         const bool ends_wake = ray.place == RayPlace::wake_end || next.place == RayPlace::wake_end;
-        const bool is_needed = angle < 0 && is_indivisible(ray, next, first_height);
-        if (!is_ray_angle_allowed(angle, element) && !ends_wake && !is_needed)
+        if (!is_ray_angle_allowed(angle, element) && !ends_wake)
             report(fmt::format("{} degrees between rays", core::degrees(angle)), origin);
     }
 

@@ -257,7 +257,7 @@ OptionTable<LayerOptions> option_rows() {
     table.length("thickness", "T", "total height beyond which no layer goes", positive_numbers,
                  at(&LayerOptions::thickness));
     table.flag("no-layers", "isotropic triangles up to the wall", false, at(&LayerOptions::enabled));
-    table.number("max-ray-angle", "DEG", "largest angle between neighbouring rays, in degrees",
+    table.number("max-ray-angle", "DEG", "largest angle by which neighbouring rays diverge, in degrees",
                  numbers_from_to(0.01, 90), at(&LayerOptions::max_ray_angle_deg));
     table.choice("corners", "at sharp convex corners: a fan of rays, or refining rays beside the vertex",
                  Choices<CornerRays>{{"fan", CornerRays::fan}, {"refine", CornerRays::refine}},

@@ -211,7 +211,7 @@ TEST(Layer, ThinsInAVNotchAndRecovers) {
     });
     ASSERT_NE(bottom, layer.rays[0].end());
     EXPECT_LT(bottom->layers, 8u);
-    EXPECT_LT(bottom->height_limit, 0.015);
+    EXPECT_LT(bottom->height_limit, 0.02);
 }
 
 TEST(Layer, LipsThatNearlyTouchKeepSpaceBetweenTheirFronts) {

@@ -51,7 +51,7 @@ inline std::vector<StreamCase> stream_cases() {
 /// A plate with a slit of 3 degrees, whose layers are thinned: a better mesh replaces the first one.
 inline StreamCase thinned_case(const TemporaryFolder& folder) {
     const std::string plate =
-        folder.write("plate.dat", "plate\n0 0\n1 0\n1 0.1\n0.606 0.1\n0.15 0.05\n0.6 0.1\n0 0.1\n0 0\n").string();
+        folder.write("plate.dat", "plate\n0 0\n1 0\n1 0.1\n0.606 0.1\n0.1 0.05\n0.6 0.1\n0 0.1\n0 0\n").string();
     CaseOptions options;
     options.far_field.size = 4;
     options.surface.treatment = SurfaceTreatment::keep;  // a fifth of the time of a wall that the slit makes fine

@@ -27,26 +27,18 @@ struct OutlineRules {
     bool widens_columns;
     /// Columns may open to this angle without more rays, if LayerOptions::max_ray_angle_deg is less.
     double max_ray_angle_deg;
-    bool refine_converging;  ///< whether rays are added where rays converge by more than they may diverge
-    bool blunt_fans;         ///< whether corners have fans that are blunter than sharp ones
-    bool rayless_corners;    ///< whether sharp concave corners have no rays (corners.hpp)
+    bool blunt_fans;       ///< whether corners have fans that are blunter than sharp ones
+    bool rayless_corners;  ///< whether sharp concave corners have no rays (corners.hpp)
 };
 
 /// Returns the row of a kind.
 inline const OutlineRules& rules_of(OutlineKind kind) {
-    static constexpr OutlineRules given{.widens_columns = false,
-                                        .max_ray_angle_deg = 0,
-                                        .refine_converging = true,
-                                        .blunt_fans = false,
-                                        .rayless_corners = false};
-    static constexpr OutlineRules smooth{.widens_columns = true,
-                                         .max_ray_angle_deg = 0,
-                                         .refine_converging = true,
-                                         .blunt_fans = true,
-                                         .rayless_corners = false};
+    static constexpr OutlineRules given{
+        .widens_columns = false, .max_ray_angle_deg = 0, .blunt_fans = false, .rayless_corners = false};
+    static constexpr OutlineRules smooth{
+        .widens_columns = true, .max_ray_angle_deg = 0, .blunt_fans = true, .rayless_corners = false};
     static constexpr OutlineRules jagged{.widens_columns = true,
                                          .max_ray_angle_deg = max_jagged_ray_angle_deg,
-                                         .refine_converging = false,
                                          .blunt_fans = false,
                                          .rayless_corners = true};
     if (kind == OutlineKind::given) return given;

@@ -176,11 +176,9 @@ void add_vertex_rays(const RayVertex& at, const WallVertex& vertex, double max_a
 
 /// What decides on the rays between two vertices of a wall.
 struct Refinement {
-    double max_angle;  ///< between neighbouring rays
-    const OutlineRules& rules;
+    double max_angle;  ///< by which neighbouring rays diverge at most
     const PlaceOnWall& place;
-    double height;        ///< of the layers between the vertices; infinite where it is not known yet
-    double first_height;  ///< wanted on the element
+    double height;  ///< of the layers between the vertices; infinite where it is not known yet
 };
 
 /// Returns the largest distance between the curve of an edge and its chords, if it is divided into so many parts.
@@ -215,11 +213,8 @@ std::size_t parts_of_curve(Point from, Point to, const Refinement& refinement) {
     return parts;
 }
 
-/// Adds the rays between two others that differ by more than the largest angle, or whose wall bends, evenly spaced on
-/// the wall. Corners of jagged outlines are so many, and their edges so short, that neighbouring edges would differ by
-/// whole factors (docs/layer.md). Rays are added there only where a column opens widely, none where rays converge. On
-/// other outlines no rays are added for rays that converge nearer to each other than two first heights: beside a
-/// concave corner of 90 degrees the corner's ray would cross the next one below the top of its first layer.
+/// Adds the rays between two others that diverge by more than the largest angle, or whose wall bends, evenly spaced on
+/// the wall. Points on rays that converge come nearer to each other by themselves.
 void add_refining_rays(const RayLine& first, const RayLine& last, const Refinement& refinement,
                        std::vector<RayLine>& rays) {
     const Point from = first.origin, to = last.origin, normal = -perpendicular(unit(to - from));
@@ -227,10 +222,7 @@ void add_refining_rays(const RayLine& first, const RayLine& last, const Refineme
     const double first_angle = core::angle_between(normal, first.direction),
                  last_angle = core::angle_between(normal, last.direction);
     const double opening = last_angle - first_angle;
-    const double room = 0.5 * distance(from, to) / (first.opening * refinement.first_height);
-    std::size_t of_angle = angle_parts(opening, refinement.max_angle);
-    if (opening < 0 && !refinement.rules.refine_converging) of_angle = 1;
-    if (opening < 0 && room < static_cast<double>(of_angle)) of_angle = static_cast<std::size_t>(std::max(1.0, room));
+    const std::size_t of_angle = opening > 0 ? angle_parts(opening, refinement.max_angle) : 1;
     const std::size_t parts = std::max(of_angle, parts_of_curve(from, to, refinement));
     for (std::size_t k = 1; k < parts; ++k) {
         const double part = static_cast<double>(k), whole = static_cast<double>(parts), rest = whole - part;
@@ -272,8 +264,7 @@ std::vector<RayLine> make_rays(std::span<const RayVertex> outline, OutlineKind k
                             .direction = first_direction(vertices[next]),
                             .least_height = outline[next].least_height};
         const double height = heights.empty() ? HUGE_VAL : std::min(heights[i], heights[next]);
-        add_refining_rays(RayLine(rays.back()), after,
-                          {most_opening(kind, options), rules, place, height, growth.first_height}, rays);
+        add_refining_rays(RayLine(rays.back()), after, {most_opening(kind, options), place, height}, rays);
     }
     return rays;
 }
