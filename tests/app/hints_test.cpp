@@ -256,7 +256,7 @@ TEST(Hints, HelpAndVersionInEveryForm) {
 TEST(Hints, ALayerBeyondTheFarFieldBlamesTheHeights) {
     const TemporaryFolder folder;
     expect_refused(folder, {"mesh", "naca:0012", "-o", "a.su2", "--first-height", "0.1", "--layers", "30"}, usage,
-                   "option --first-height: a first height of 0.1 and 30 layers make a layer that is 1");
+                   "option --first-height: a first height of 0.1 and 30 layers make a layer that is 130");
     expect_refused(folder,
                    {"mesh", "naca:0012", "-o", "a.su2", "--y-plus", "300", "--reynolds", "1e4", "--far-field", "20",
                     "--preset", "none", "--layers", "30"},
