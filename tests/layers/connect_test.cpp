@@ -13,7 +13,7 @@
 #include "core/angles.hpp"
 #include "core/parallel.hpp"
 #include "layers/cells/fill.hpp"
-#include "layers/cells/strip.hpp"
+#include "layers/cells/polygon_cutter.hpp"
 #include "layers/expect_cover.hpp"
 #include "support/layers.hpp"
 #include "support/shapes.hpp"
@@ -26,12 +26,15 @@ using test::expect_cover;
 using test::for_each_cell;
 using test::topologies;
 
-/// Expects all corners of each cell of layer n to lie on layers n - 1 and n.
+/// Expects all corners of each cell of layer n to lie on layers n - 1 and n; the tip above a divided step, one higher.
 void expect_rows(const Layer& layer, const LayerCells& cells) {
+    std::set<VertexId> tips;
+    for (const auto& rays : layer.rays)
+        for (const Ray& ray : rays) tips.insert(ray.tip());
     for_each_cell(cells, [&](const std::vector<VertexId>& cell, std::uint16_t n) {
         EXPECT_GE(n, 1);
         for (VertexId v : cell) {
-            EXPECT_LE(layer.layer_of_point[v.index()], n);
+            EXPECT_LE(layer.layer_of_point[v.index()], n + tips.count(v));
             EXPECT_GE(layer.layer_of_point[v.index()] + 1, n);
         }
     });
@@ -363,6 +366,61 @@ TEST(Connect, TopsThatNoFansFillAreTriangulated) {
     corner.divide(corner.p, {0.5, 1.19});
     corner.divide(corner.p, {0.8, 1.02});
     corner.expect_covered();
+}
+
+/// Returns the least sum of burdens of a triangulation of the polygon with these corners, by trying all of them.
+double least_burden(const Layer& layer, const std::vector<VertexId>& corners) {
+    if (corners.size() < 3) return 0;
+    double least = HUGE_VAL;
+    const VertexId first = corners.front(), last = corners.back();
+    for (std::size_t k = 1; k + 1 < corners.size(); ++k) {
+        const auto at = [&](VertexId v) { return layer.points[v.index()]; };
+        if (!(orient2d(at(first), at(corners[k]), at(last)) > 0)) continue;
+        const auto apex = corners.begin() + static_cast<std::ptrdiff_t>(k);
+        least =
+            std::min(least, burden(layer, first, corners[k], last) + least_burden(layer, {corners.begin(), apex + 1}) +
+                                least_burden(layer, {apex, corners.end()}));
+    }
+    return least;
+}
+
+TEST(PolygonCutter, FindsTheBestTriangulation) {
+    std::mt19937 random(7);
+    for (int k = 0; k < 60; ++k) {
+        SCOPED_TRACE(k);
+        Layer polygon;
+        polygon.points = shapes::star(3 + k % 6, 0.02 + 0.015 * k, random);
+        std::vector<VertexId> corners;
+        double inside = 0;
+        for (std::size_t i = 0; i < polygon.points.size(); ++i) {
+            corners.emplace_back(i);
+            inside += cross(polygon.points[i], polygon.points[(i + 1) % polygon.points.size()]) / 2;
+        }
+        for (bool first_leads : {false, true}) {
+            std::vector<Triangle> triangles;
+            ASSERT_TRUE(layers::PolygonCutter(polygon.points).cut(corners, first_leads, triangles));
+            EXPECT_EQ(triangles.size() + 2, corners.size());
+            double sum = 0, area = 0;
+            for (const Triangle& t : triangles) {
+                const auto [a, b, c] = t.v;
+                const Point p = polygon.points[a.index()], q = polygon.points[b.index()], r = polygon.points[c.index()];
+                EXPECT_GT(orient2d(p, q, r), 0);
+                sum += burden(polygon, a, b, c);
+                area += cross(q - p, r - p) / 2;
+            }
+            EXPECT_NEAR(area, inside, 1e-12);
+            EXPECT_NEAR(sum / least_burden(polygon, corners), 1, 1e-3);
+        }
+    }
+}
+
+TEST(PolygonCutter, RefusesPolygonsThatRunBackwards) {
+    const Outline box = shapes::box();
+    std::vector<VertexId> corners;
+    for (std::size_t i = box.size(); i-- > 0;) corners.emplace_back(i);
+    std::vector<Triangle> triangles;
+    EXPECT_FALSE(layers::PolygonCutter(box).cut(corners, true, triangles));
+    EXPECT_TRUE(triangles.empty());
 }
 
 }  // namespace

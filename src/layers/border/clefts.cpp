@@ -18,7 +18,7 @@
 #include "core/angles.hpp"
 #include "core/bounding_box.hpp"
 #include "core/segments.hpp"
-#include "layers/cells/strip.hpp"
+#include "layers/cells/polygon_cutter.hpp"
 #include "layers/mechanisms.hpp"
 #include "layers/parameters.hpp"
 #include "layers/stages.hpp"
@@ -97,17 +97,15 @@ private:
         Point corner(const Triangle& t, std::size_t k) const { return points[t.v[k % 3].index()]; }
     };
 
-    /// Returns the strip of a cleft; without triangles where none of its cuts has positive ones only.
+    /// Returns the strip of a cleft; without triangles where no triangulation has positive ones only.
     Strip strip_of(const CleftEnd& end) const {
         Strip strip;
-        std::vector<VertexId> upper, lower;
-        const auto add = [&](std::size_t ray, std::vector<VertexId>& chain) {
-            chain.push_back(VertexId(strip.points.size()));
-            strip.points.push_back(rays_.tip(ray));
-        };
-        for (std::size_t i = end.corner + 1; i-- > end.first;) add(i, upper);
-        for (std::size_t i = end.corner + 1; i <= end.last; ++i) add(i, lower);
-        StripCutter(strip.points).cut(lower, upper, true, strip.triangles);
+        std::vector<VertexId> corners;
+        for (std::size_t i = end.last + 1; i-- > end.first;) {
+            corners.push_back(VertexId(strip.points.size()));
+            strip.points.push_back(rays_.tip(i));
+        }
+        PolygonCutter(strip.points).cut(corners, true, strip.triangles);
         return strip;
     }
 

@@ -11,12 +11,11 @@
 #include <utility>
 
 #include <lamina/delaunay.hpp>
-#include <lamina/error.hpp>
 
 #include "core/parallel.hpp"
 #include "core/predicates.hpp"
 #include "core/rounding.hpp"
-#include "layers/cells/strip.hpp"
+#include "layers/cells/polygon_cutter.hpp"
 
 namespace lamina::layers {
 
@@ -41,7 +40,7 @@ constexpr std::size_t columns_per_block = 512;
 /// Makes the cells of columns, one after the other.
 class Connector {
 public:
-    Connector(const Layer& layer, GridCells form) : layer_(layer), form_(form), strips_(layer.points) {}
+    Connector(const Layer& layer, GridCells form) : layer_(layer), form_(form), cutter_(layer.points) {}
 
     /// Adds the cells of a column.
     void add(const CellColumn& column) {
@@ -71,7 +70,7 @@ public:
                 add_divided_step(column, common);
                 n = highest;
             } else if (n > common) {
-                add_strip(std::span(lower).subspan(first.layers > common ? 0 : 1, 1), top);
+                add_polygon(std::span(lower).subspan(first.layers > common ? 0 : 1, 1), top);
             } else {
                 add_cell(lower, top, n);
             }
@@ -79,7 +78,7 @@ public:
         }
     }
 
-    /// Adds the cells of the space behind a base: strips between successive chains.
+    /// Adds the cells of the space behind a base, between successive chains.
     void add(const LayerCore& core) {
         first_leads_ = true;
         for (std::size_t c = 1; c < core.chains.size(); ++c) {
@@ -87,7 +86,7 @@ public:
             const auto layer = static_cast<std::uint16_t>(c);
             const std::size_t n = lower.size();
             if (n != upper.size()) {
-                add_strip(lower, upper);
+                add_polygon(lower, upper);
             } else {
                 const bool first_joins = lower.front() == upper.front(), last_joins = lower.back() == upper.back();
                 const std::size_t apart = n - first_joins - last_joins;
@@ -104,19 +103,12 @@ public:
     void add(const LayerCleft& cleft) {
         first_leads_ = true;
         const std::vector<Ray>& rays = layer_.rays[cleft.element];
-        std::vector<VertexId> upper, lower;
-        for (std::size_t i = cleft.corner + 1; i-- > cleft.first;) upper.push_back(rays[i].tip());
-        for (std::size_t i = cleft.corner + 1; i <= cleft.last; ++i) lower.push_back(rays[i].tip());
-        // Division points of the outer edge go to the shorter chain. If that has one corner, they are in line with it
-        // and with the end of the longer one.
-        const std::span<const VertexId> divisions = std::span(cleft.outer_edge).subspan(1, cleft.outer_edge.size() - 2);
-        if (upper.size() <= lower.size())
-            upper.insert(upper.end(), divisions.begin(), divisions.end());
-        else
-            lower.insert(lower.end(), divisions.rbegin(), divisions.rend());
+        corners_.clear();
+        for (std::size_t i = cleft.last + 1; i-- > cleft.first;) corners_.push_back(rays[i].tip());
+        corners_.insert(corners_.end(), cleft.outer_edge.begin() + 1, cleft.outer_edge.end() - 1);
         std::uint32_t most_layers = 0;
         for (std::size_t i = cleft.first; i <= cleft.last; ++i) most_layers = std::max(most_layers, rays[i].layers);
-        add_strip(lower, upper);
+        cut_corners();
         number_triangles(0, most_layers);
     }
 
@@ -134,7 +126,7 @@ private:
     const Layer& layer_;
     GridCells form_;
     LayerCells cells_;
-    StripCutter strips_;
+    PolygonCutter cutter_;
     bool first_leads_ = false;       ///< whether the first ray's corner has the preference where cuts are equal
     std::vector<VertexId> corners_;  ///< of a polygon; kept between calls for its memory
 
@@ -159,44 +151,40 @@ private:
     void add_cell(const std::array<VertexId, 2>& lower, std::span<const VertexId> top, std::uint32_t n) {
         const auto [a, d] = lower;
         if (a == d) {
-            add_strip(std::span(lower).first(1), top);
+            add_polygon(std::span(lower).first(1), top);
         } else if (form_ == GridCells::whole && top.size() == 2 &&
                    core::is_convex(at(a), at(top[0]), at(top[1]), at(d))) {
             cells_.quads.push_back({{a, top[0], top[1], d}});
             cells_.quad_layer.push_back(static_cast<std::uint16_t>(n));
         } else {
-            add_strip(lower, top);
+            add_polygon(lower, top);
         }
     }
 
-    /// Adds the triangles between two chains of vertices. Coordinates may be too coarse for the triangles of a strip;
-    /// then any triangulation will do.
-    void add_strip(std::span<const VertexId> lower, std::span<const VertexId> top) {
-        if (strips_.cut(lower, top, first_leads_, cells_.triangles)) return;
-        corners_.assign(top.begin(), top.end());
-        corners_.insert(corners_.end(), lower.rbegin(), lower.rend());
-        add_polygon();
+    /// Adds the triangles between two chains of vertices, which both run from the first ray to the second.
+    void add_polygon(std::span<const VertexId> lower, std::span<const VertexId> upper) {
+        corners_.assign(1, lower.front());
+        append_corners(upper.begin(), upper.end());
+        append_corners(lower.rbegin(), lower.rend() - 1);
+        cut_corners();
     }
 
     /// Adds the triangle at the top of a column where one ray has a layer more, together with the cell below. Alone it
-    /// could only be fanned from one corner, with ever flatter triangles. The lower chain has one corner more on the
-    /// higher ray:
+    /// could only be fanned from one corner, with ever flatter triangles.
     ///
-    ///              .-b = q0      lower chain a' a d; with the higher ray on the other side, a d d'
+    ///              .-b = q0
     ///          q1-'   |
-    ///      q2-'       |
-    ///    c-'----------a'
-    ///    |            |
+    ///      q2-'       a'      a' is a corner of the polygon a, a', b, q1, q2, c, d; with the higher ray on the other
+    ///    c-'          |       side, d' is
     ///    d------------a
     void add_divided_step(const CellColumn& column, std::uint32_t common) {
         const Ray &first = column.first, &second = column.second;
-        corners_.clear();
+        corners_.assign(1, first.vertex(common - 1));
         if (first.layers > common) corners_.push_back(first.vertex(common));
-        corners_.push_back(first.vertex(common - 1));
-        if (second.vertex(common - 1) != corners_.back()) corners_.push_back(second.vertex(common - 1));
+        append_corners(column.top.begin(), column.top.end());
         if (second.layers > common) corners_.push_back(second.vertex(common));
-        const std::vector<VertexId> lower = corners_;
-        add_strip(lower, column.top);
+        corners_.push_back(second.vertex(common - 1));
+        cut_corners();
     }
 
     /// Adds the cells of the first layer in a sharp corner of the wall that has no ray. The triangles on the edges of
@@ -213,12 +201,9 @@ private:
         const std::vector<VertexId>& corner = column.first.corner_after;
         const VertexId a = column.second.origin, d = column.first.origin;
         if (d != top.front()) cells_.triangles.push_back({{corner.front(), d, top.front()}});
-        // Both chains go from the top to the corner.
-        const auto middle = corner.begin() + static_cast<std::ptrdiff_t>(corner.size() / 2) + 1;
-        std::vector<VertexId> lower(top.rbegin() + 1, top.rend()), upper{top.back()};
-        lower.insert(lower.end(), corner.begin(), middle);
-        upper.insert(upper.end(), std::make_reverse_iterator(corner.end()), std::make_reverse_iterator(middle));
-        add_strip(lower, upper);
+        corners_.assign(top.begin(), top.end());
+        append_corners(corner.rbegin(), corner.rend());
+        cut_corners();
         if (a != top.back()) cells_.triangles.push_back({{corner.back(), top.back(), a}});
     }
 
@@ -230,34 +215,25 @@ private:
     ///        \   |
     ///         d--a
     void add_cell_between_borders(const CellColumn& column, std::span<const VertexId> top) {
-        corners_.clear();
-        const auto append = [&](VertexId v) {
-            if (corners_.empty() || corners_.back() != v) corners_.push_back(v);
-        };
-        append(column.first.origin);
-        std::for_each(column.up.begin(), column.up.end(), append);
-        std::for_each(top.begin(), top.end(), append);
-        std::for_each(column.down.begin(), column.down.end(), append);
-        append(column.second.origin);
-        if (corners_.back() == corners_.front()) corners_.pop_back();
-        add_polygon();
+        corners_.assign(1, column.first.origin);
+        append_corners(column.up.begin(), column.up.end());
+        append_corners(top.begin(), top.end());
+        append_corners(column.down.begin(), column.down.end());
+        append_corners(&column.second.origin, &column.second.origin + 1);
+        cut_corners();
     }
 
-    /// Adds the constrained Delaunay triangles of the polygon corners_. It is counter-clockwise and may have a corner
-    /// twice in a row.
-    void add_polygon() {
-        corners_.erase(std::unique(corners_.begin(), corners_.end()), corners_.end());
-        std::vector<Point> corners;
-        std::vector<Segment> sides;
-        for (std::size_t i = 0; i < corners_.size(); ++i) {
-            corners.push_back(at(corners_[i]));
-            sides.push_back({VertexId(i), VertexId((i + 1) % corners_.size())});
-        }
-        const auto inside = triangulate(corners, sides, {.keep = KeptRegion::left_of_segments});
-        assert(inside.triangles.size() + 2 == corners.size());
-        for (const Triangle& t : inside.triangles)
-            cells_.triangles.push_back(
-                {{corners_[t.v[0].index()], corners_[t.v[1].index()], corners_[t.v[2].index()]}});
+    /// Adds vertices to the corners of the polygon, each once.
+    template <class Iterator>
+    void append_corners(Iterator begin, Iterator end) {
+        for (; begin != end; ++begin)
+            if (corners_.back() != *begin) corners_.push_back(*begin);
+    }
+
+    /// Adds the triangles of the polygon corners_, which is counter-clockwise. Its first and last corner may be one.
+    void cut_corners() {
+        if (corners_.back() == corners_.front()) corners_.pop_back();
+        if (!cutter_.cut(corners_, first_leads_, cells_.triangles)) cells_.grid_refused = true;
     }
 };
 
@@ -309,6 +285,8 @@ LayerCells connect_layer(const Layer& layer, GridCells form) {
     cells.quad_layer = joined(blocks, &LayerCells::quad_layer);
     cells.triangle_column = joined(blocks, &LayerCells::triangle_column);
     cells.quad_column = joined(blocks, &LayerCells::quad_column);
+    cells.grid_refused =
+        std::any_of(blocks.begin(), blocks.end(), [](const LayerCells& block) { return block.grid_refused; });
     return cells;
 }
 
@@ -450,14 +428,10 @@ LayerCells fill(const Layer& layer, LayerTopology topology, const DecompositionO
     bool grid_refused = false;
     if (topology != LayerTopology::delaunay) {
         const core::BusyTimes::Scope busy(times, delaunay::pieces::triangulating);
-        try {
-            LayerCells cells =
-                connect_layer(layer, topology == LayerTopology::quads ? GridCells::whole : GridCells::split);
-            cells.first_triangle = {0, cells.triangles.size()};
-            return cells;
-        } catch (const InputError&) {
-            grid_refused = true;  // the corners of a cell are no polygon
-        }
+        LayerCells cells = connect_layer(layer, topology == LayerTopology::quads ? GridCells::whole : GridCells::split);
+        cells.first_triangle = {0, cells.triangles.size()};
+        if (!cells.grid_refused) return cells;
+        grid_refused = true;
     }
     auto triangulation = triangulate_layer(layer, options, times);
     LayerCells cells = cells_of(layer, std::move(triangulation.triangles));
