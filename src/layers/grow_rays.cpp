@@ -210,8 +210,7 @@ RaySet rays_of(const Walls& walls, std::span<const DividedWake> wakes, const Lay
         const LayerGrowth own = growth_on_element(growth, e);
         for (RayVertex& vertex : outline)
             if (vertex.place == RayPlace::wall) vertex.feet = feet_at(vertex.at, walls.obstacles.feet);
-        if (rules_of(kind).rayless_corners && !options.equal_fans && !element.is_mirrored)
-            leave_out_sharp_corners(own.first_height, outline);
+        if (!options.equal_fans && !element.is_mirrored) leave_out_sharp_corners(own.first_height, outline);
         set_first_heights(first_heights_on_wall(own, 0, element.points), element.points, own.first_height, outline);
         set_least_heights(own.least_heights, outline);
         const std::vector<RayLine> upright = make_rays(outline, kind, options, own, {}, walls.place);

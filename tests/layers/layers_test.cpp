@@ -206,12 +206,13 @@ TEST(Layer, ThinsInAVNotchAndRecovers) {
     const Layer layer = checked_layer(shapes::refined(shapes::v_notch(0.4), 20), options);
     EXPECT_GT(layer.coverage[0].all.incomplete_rays, 0u);
     EXPECT_GT(full_rays(layer), 20u);
-    const auto bottom = std::find_if(layer.rays[0].begin(), layer.rays[0].end(), [&](const Ray& ray) {
-        return layer.points[ray.origin.index()] == Point{2, 0.2};
-    });
-    ASSERT_NE(bottom, layer.rays[0].end());
-    EXPECT_LT(bottom->layers, 8u);
-    EXPECT_LT(bottom->height_limit, 0.02);
+    const auto beside_bottom = std::find_if(layer.rays[0].begin(), layer.rays[0].end(),
+                                            [](const Ray& ray) { return !ray.corner_after.empty(); });
+    ASSERT_NE(beside_bottom, layer.rays[0].end());
+    ASSERT_EQ(beside_bottom->corner_after.size(), 1u);
+    EXPECT_EQ(layer.points[beside_bottom->corner_after[0].index()], (Point{2, 0.2}));
+    EXPECT_LT(beside_bottom->layers, 8u);
+    EXPECT_LT(beside_bottom->height_limit, 0.02);
 }
 
 TEST(Layer, LipsThatNearlyTouchKeepSpaceBetweenTheirFronts) {

@@ -1,4 +1,4 @@
-// Sharp concave corners of jagged walls, which have no rays, and the clefts that begin there.
+// Sharp concave corners of walls, which have no rays, and the clefts that begin there.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -104,9 +104,9 @@ TEST(SharpCorners, HaveNoRayButCellsOfTheFirstHeight) {
 /// borders divide their tops.
 TEST(SharpCorners, WouldHaveLargeAnglesWithOneRay) {
     for (const double angle_deg : {15.0, 30.0, 45.0}) {
-        Geometry geometry = jagged_geometry(notched_plate(angle_deg));
-        geometry.elements[0].resampled = false;
-        const Layer layer = test::make_layer(geometry, options_of_layers());
+        LayerOptions equal_fans = options_of_layers();
+        equal_fans.equal_fans = true;
+        const Layer layer = test::make_layer(jagged_geometry(notched_plate(angle_deg)), equal_fans);
         EXPECT_GT(largest_angle_in_notch_deg(layer, fill_layer(layer, LayerTopology::layered)), largest_allowed_deg);
     }
 }
@@ -120,9 +120,6 @@ TEST(SharpCorners, KeepTheirRayWhereTheyMust) {
     LayerOptions equal_fans = options_of_layers();
     equal_fans.equal_fans = true;
     EXPECT_EQ(count(jagged_geometry(notched_plate(30)), equal_fans), 0u) << "equal numbers of rays";
-    Geometry smooth = jagged_geometry(notched_plate(30));
-    smooth.elements[0].smooth = true;
-    EXPECT_EQ(count(smooth, options_of_layers()), 0u);
 }
 
 /// Where no first layer fits between both walls, vertices near the corner have no rays, but cells of the layer.

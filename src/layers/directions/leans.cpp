@@ -242,7 +242,7 @@ Leaners leaners_of(std::span<const RayVertex> outline, std::span<const double> h
 
 double most_opening(OutlineKind kind, const LayerOptions& options) {
     const double angle = core::radians(options.max_ray_angle_deg);
-    return std::max(angle, core::radians(rules_of(kind).max_ray_angle_deg));
+    return kind == OutlineKind::jagged ? std::max(angle, core::radians(max_jagged_ray_angle_deg)) : angle;
 }
 
 void lean_rays(std::span<const RayVertex> outline, std::span<const double> heights, OutlineKind kind,
@@ -254,7 +254,8 @@ void lean_rays(std::span<const RayVertex> outline, std::span<const double> heigh
     const double fan_angle = std::min(core::radians(options.max_ray_angle_deg), angle);
     // On walls of twice as many edges and rays at half the angle a lack is spread over twice as many columns.
     const double stiffness = lean_stiffness * fan_angle * fan_angle;
-    const double wanted = rules_of(kind).widens_columns ? wanted_width_in_openings * angle : -HUGE_VAL;
+    // Rays of points that were given stay near their normals: they must not meet, and no more.
+    const double wanted = kind == OutlineKind::given ? -HUGE_VAL : wanted_width_in_openings * angle;
     const Leaners leaners =
         leaners_of(outline, heights, isotropic ? fronts_of_isotropy : 1, wanted, growth.first_height, vertices);
     const ChainLeans solution = minimise_leans(leaners.lacks, leaners.bounds, stiffness);

@@ -241,8 +241,7 @@ void add_refining_rays(const RayLine& first, const RayLine& last, const Refineme
 
 std::vector<RayLine> make_rays(std::span<const RayVertex> outline, OutlineKind kind, const LayerOptions& options,
                                const LayerGrowth& growth, std::span<const double> heights, const PlaceOnWall& place) {
-    const OutlineRules& rules = rules_of(kind);
-    const double min_fan_turning_deg = rules.blunt_fans && !options.equal_fans
+    const double min_fan_turning_deg = kind == OutlineKind::smooth && !options.equal_fans
                                            ? std::min(geometry::sharp_corner_deg, 2 * options.max_ray_angle_deg)
                                            : geometry::sharp_corner_deg;
     std::vector<WallVertex> vertices = wall_vertices(outline, options, min_fan_turning_deg);
