@@ -177,6 +177,17 @@ TEST(Euler, ConvergesFromSubsonicToSupersonicSpeeds) {
     }
 }
 
+TEST(Euler, BowShocksSettleInFewSteps) {
+    for (const auto& section : {naca_0012(), cambered()}) {
+        const SectionMesh mesh = mesh_round(section, 144, 30, 3);
+        for (const double mach : {1.2, 2.0, 2.5}) {
+            const EulerSolution flow = solve_euler(mesh.view(), {.mach = mach, .alpha_deg = 2});
+            EXPECT_TRUE(flow.converged) << mach;
+            EXPECT_LT(flow.iterations, 60) << mach;
+        }
+    }
+}
+
 TEST(Euler, SaysWhereItIsNotSteady) {
     const SectionMesh mesh = mesh_round(naca_0012(), 32, 10, 2);
     const EulerSolution flow = solve_euler(mesh.view(), {.mach = 0.8, .alpha_deg = 2, .max_iterations = 15});
