@@ -168,7 +168,7 @@ private:
             if (!(change >= least - slack && change <= most + slack))
                 report(fmt::format("the spacing of layer {} grows {} times as the law says", n, change), p);
         }
-        const double above_first = height - dot(first, first) / dot(ray.direction, first);
+        const double above_first = height - height_and_shift(first, first, ray.direction).first;
         if (above_first > ray.height_limit * (1 + 1e-12) + rounding) report("ray is longer than its limit", origin);
     }
 
