@@ -414,6 +414,34 @@ TEST(PolygonCutter, FindsTheBestTriangulation) {
     }
 }
 
+TEST(PolygonCutter, TrianglesOfAStripJoinBothSides) {
+    // A box with a triangle below it, which is one of the best triangulation, and has all its corners on one side.
+    Layer strip;
+    strip.points = {{0, 0}, {2, -1.9}, {4, 0}, {4, 8}, {0, 8}};
+    std::vector<VertexId> corners;
+    for (std::size_t i = 0; i < strip.points.size(); ++i) corners.emplace_back(i);
+    const auto joins_both = [](const Triangle& t) {
+        const auto is_below = [](VertexId v) { return v.index() < 3; };
+        return std::any_of(std::begin(t.v), std::end(t.v), is_below) &&
+               !std::all_of(std::begin(t.v), std::end(t.v), is_below);
+    };
+    const auto sum_of = [&](const std::vector<Triangle>& triangles) {
+        double sum = 0;
+        for (const Triangle& t : triangles) sum += burden(strip, t.v[0], t.v[1], t.v[2]);
+        return sum;
+    };
+    for (bool first_leads : {false, true}) {
+        std::vector<Triangle> best, joined;
+        layers::PolygonCutter cutter(strip.points);
+        ASSERT_TRUE(cutter.cut(corners, first_leads, best));
+        ASSERT_TRUE(cutter.cut_strip(corners, 3, first_leads, joined));
+        EXPECT_FALSE(std::all_of(best.begin(), best.end(), joins_both));
+        EXPECT_TRUE(std::all_of(joined.begin(), joined.end(), joins_both));
+        EXPECT_EQ(joined.size(), best.size());
+        EXPECT_GT(sum_of(joined), sum_of(best));
+    }
+}
+
 TEST(PolygonCutter, RefusesPolygonsThatRunBackwards) {
     const Outline box = shapes::box();
     std::vector<VertexId> corners;

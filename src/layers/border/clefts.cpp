@@ -105,7 +105,7 @@ private:
             corners.push_back(VertexId(strip.points.size()));
             strip.points.push_back(rays_.tip(i));
         }
-        PolygonCutter(strip.points).cut(corners, true, strip.triangles);
+        PolygonCutter(strip.points).cut_strip(corners, end.last - end.corner, true, strip.triangles);
         return strip;
     }
 

@@ -83,7 +83,7 @@ enum class GridCells {
 /// condition in the finite element method, SIAM J. Numer. Anal. 13 (1976): interpolation suffers from large angles, not
 /// from small ones.
 ///
-/// Where a cell has no positive triangles, `grid_refused` is set, and the cells are of no use.
+/// LayerCells::grid_refused says that a cell cannot be cut into positive triangles. Then none of the cells is of use.
 LayerCells connect_layer(const Layer& layer, GridCells form);
 
 }  // namespace lamina::layers

@@ -28,14 +28,17 @@ double burden_of(Point a, Point b, Point c) {
 
 }  // namespace
 
-bool PolygonCutter::cut(std::span<const VertexId> corners, bool first_leads, std::vector<Triangle>& triangles) {
+bool PolygonCutter::cut_strip(std::span<const VertexId> corners, std::size_t side, bool first_leads,
+                              std::vector<Triangle>& triangles) {
     assert(corners.size() >= 3);
     corners_ = corners;
     const std::size_t n = corners.size();
     best_.assign(n * n, {});
     for (std::size_t i = n - 1; i-- > 0;) {
         best(i, i + 1).burden = 0;
-        for (std::size_t j = i + 2; j < n; ++j) best(i, j) = find_best(i, j, first_leads);
+        // With a side, the base joins both: a larger j if i is on the first one, and none if it is on the second one.
+        if (side > 0 && i >= side) continue;
+        for (std::size_t j = std::max(i + 2, side); j < n; ++j) best(i, j) = find_best(i, j, first_leads, side > 0);
     }
     if (std::isinf(best(0, n - 1).burden)) return false;
     add_triangles(0, n - 1, triangles);
@@ -43,10 +46,11 @@ bool PolygonCutter::cut(std::span<const VertexId> corners, bool first_leads, std
 }
 
 /// Returns the best triangulation of the polygon of the base i-j from those of smaller ones.
-PolygonCutter::Best PolygonCutter::find_best(std::size_t i, std::size_t j, bool first_leads) {
+PolygonCutter::Best PolygonCutter::find_best(std::size_t i, std::size_t j, bool first_leads, bool is_strip) {
     const auto at = [&](std::size_t corner) { return points_[corners_[corner].index()]; };
     Best found;
-    for (std::size_t n = i + 1; n < j; ++n) {
+    const std::size_t step = is_strip ? std::max<std::size_t>(j - i - 2, 1) : 1;  // from i + 1 to j - 1
+    for (std::size_t n = i + 1; n < j; n += step) {
         const std::size_t k = first_leads ? i + j - n : n;
         const double beside = best(i, k).burden + best(k, j).burden;
         if (!(beside < found.burden)) continue;

@@ -30,10 +30,18 @@ public:
     /// angles of all triangles is smallest, which the largest angle of all decides where one is much larger than
     /// others. Sums that differ by less than a millionth, which is more than rounding, count as equal. Where sums are
     /// equal, `first_leads` prefers large fans from the first corner, otherwise from the last. Returns false, and adds
-    /// nothing, where every triangulation has a triangle that is not positive (exact), as none does for a simple
-    /// polygon. Takes time as the third power of the number of corners.
+    /// nothing, where every triangulation has a triangle that is not positive (exact). Each simple polygon has one of
+    /// positive triangles. The time grows as the third power of the number of corners.
     /// Precondition: three corners or more, counter-clockwise.
-    bool cut(std::span<const VertexId> corners, bool first_leads, std::vector<Triangle>& triangles);
+    bool cut(std::span<const VertexId> corners, bool first_leads, std::vector<Triangle>& triangles) {
+        return cut_strip(corners, 0, first_leads, triangles);
+    }
+
+    /// Does what cut() does, but each triangle has corners of both sides of a strip: of the first `side` corners, and
+    /// of the others. An apex then is next to an end of the base, so that the time grows as the second power. With a
+    /// side of 0 the polygon is no strip.
+    bool cut_strip(std::span<const VertexId> corners, std::size_t side, bool first_leads,
+                   std::vector<Triangle>& triangles);
 
 private:
     /// The best triangulation of the polygon of a base.
@@ -47,7 +55,7 @@ private:
     std::vector<Best> best_;  ///< for each corner, those of the bases from it to all corners
 
     Best& best(std::size_t i, std::size_t j) { return best_[i * corners_.size() + j]; }
-    Best find_best(std::size_t i, std::size_t j, bool first_leads);
+    Best find_best(std::size_t i, std::size_t j, bool first_leads, bool is_strip);
     void add_triangles(std::size_t i, std::size_t j, std::vector<Triangle>& triangles);
 };
 
